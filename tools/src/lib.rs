@@ -1,0 +1,3 @@
+//! x
+pub mod cache;
+pub mod scene;
