@@ -1,2 +1,46 @@
 //! The streams of the pm programs: photons, gather queries and access traces.
+//!
+//! A stream is a header (what it is about, where it came from), blocks of records, and an end block that proves that it
+//! is whole. `README.md` specifies the bytes. This library knows no scene, no photon map and no cache.
+//!
+//! ```
+//! use pm_formats::{BlockMeta, Header, Photon, RecordReader, RecordWriter};
+//!
+//! let photon = Photon::new([0.0, 0.5, 0.0], [1.0, 0.9, 0.8], [0.5; 3], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]).unwrap();
+//! let mut writer = RecordWriter::new(Vec::new(), &Header::empty())?;
+//! writer.write(BlockMeta::default(), &[photon])?;
+//! let stream = writer.finish(vec![])?; // the only way to an end block
+//!
+//! let mut reader = RecordReader::<Photon, _>::new(&stream[..])?;
+//! while let Some((_, photons)) = reader.next_block()? {
+//!     assert_eq!(photons, [photon]);
+//! }
+//! assert_eq!(reader.end()?.tally.records, 1);
+//!
+//! // Without its last byte the stream is not whole, and says so.
+//! let mut reader = RecordReader::<Photon, _>::new(&stream[..stream.len() - 1])?;
+//! reader.next_block()?;
+//! assert!(reader.next_block().is_err());
+//! # Ok::<(), pm_formats::Error>(())
+//! ```
+
+mod container;
+mod digest;
+mod error;
+mod history;
+mod record;
+mod stream;
 pub mod trace;
+
+pub use container::{
+    Block, BlockMeta, BlockReader, BlockWriter, Bounds, End, FORMAT_VERSION, Header, Kind, MAGIC, MAX_BLOCK, Material,
+    Number, StageReport,
+};
+pub use digest::{Digest, Tally};
+pub use error::{Error, Result};
+pub use history::{Step, as_commands};
+pub use record::{
+    BLOCK_RECORDS, Photon, Query, Record, decode_records, encode_records, pack_direction, pack_rgbe, unpack_direction,
+    unpack_rgbe,
+};
+pub use stream::{RecordReader, RecordWriter};

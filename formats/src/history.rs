@@ -1,0 +1,83 @@
+//! Where a stream came from: one entry for each program that touched it.
+
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+
+/// What one program did to a stream. It holds nothing that could differ between two runs of the same work: no clock, no
+/// host, no thread count.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Step {
+    /// The program, such as `pm-reorder`.
+    pub program: String,
+    /// Its version with commit.
+    pub version: String,
+    /// The arguments that can change a record, as typed.
+    pub arguments: Vec<String>,
+    /// Seed of its random numbers, where it draws any.
+    pub seed: Option<u64>,
+    /// Other streams that were read as a whole, by the name typed: a photon map, say.
+    pub inputs: Vec<(String, Vec<Step>)>,
+}
+
+/// The history as commands that could be typed again: side inputs first, each in a line of its own, then the pipe.
+#[must_use]
+pub fn as_commands(history: &[Step]) -> String {
+    let mut text = String::new();
+    for (name, steps) in history.iter().flat_map(|step| &step.inputs) {
+        let commands = as_commands(steps);
+        let _ = writeln!(text, "{} > {}", commands.trim_end(), quoted(name));
+    }
+    let pipe: Vec<String> = history
+        .iter()
+        .map(|step| {
+            let words = step.arguments.iter().map(|argument| quoted(argument));
+            std::iter::once(step.program.clone()).chain(words).collect::<Vec<_>>().join(" ")
+        })
+        .collect();
+    let _ = writeln!(text, "{}", pipe.join(" | "));
+    text
+}
+
+/// A word as a POSIX shell would have it typed.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(program: &str, arguments: &[&str]) -> Step {
+        Step {
+            program: program.into(),
+            version: "0".into(),
+            arguments: arguments.iter().map(|&a| a.into()).collect(),
+            seed: None,
+            inputs: vec![],
+        }
+    }
+
+    #[test]
+    fn reads_as_the_pipe_one_could_type_again() {
+        let mut gather = step("pm-gather", &["map.pmp"]);
+        gather.inputs.push(("map.pmp".into(), vec![step("pm-photons", &["-n", "100"])]));
+        let history = [step("pm-queries", &["my scene.obj"]), step("pm-reorder", &["hilbert"]), gather];
+        assert_eq!(
+            as_commands(&history),
+            "pm-photons -n 100 > map.pmp\npm-queries 'my scene.obj' | pm-reorder hilbert | pm-gather map.pmp\n"
+        );
+    }
+
+    #[test]
+    fn shell_metacharacters_are_quoted() {
+        assert_eq!(quoted("a b"), "'a b'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+        assert_eq!(quoted(""), "''");
+        assert_eq!(quoted("$(rm)"), "'$(rm)'");
+    }
+}

@@ -1,0 +1,114 @@
+//! Records of fixed size, and how a block holds them.
+
+mod pack;
+mod photon;
+mod query;
+
+pub use pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
+pub use photon::Photon;
+pub use query::Query;
+
+use crate::container::{Block, BlockMeta, Header, Kind};
+use crate::digest::Tally;
+use crate::error::Result;
+use bytemuck::Pod;
+
+#[cfg(target_endian = "big")]
+compile_error!("records are little-endian and are read in place: this library needs a little-endian machine");
+
+/// Most records in a block.
+pub const BLOCK_RECORDS: usize = 4096;
+/// zstd level for records: positions hardly compress, so more effort buys nothing.
+const LEVEL: i32 = 1;
+
+/// A record of fixed size, a whole number of 32-bit words.
+pub trait Record: Pod {
+    /// The kind of stream it makes.
+    const KIND: Kind;
+
+    /// What is wrong with the record in a stream with this header, if anything is.
+    fn problem(&self, header: &Header) -> Option<&'static str>;
+}
+
+/// Packs records of one batch into a block, word by word: first the first words of all records, then the second words,
+/// and so on, since like compresses best beside like.
+///
+/// # Errors
+/// If the records are too many for a block.
+pub fn encode_records<T: Record>(meta: BlockMeta, records: &[T]) -> Result<(Block, Tally)> {
+    let words_each = size_of::<T>() / 4;
+    let words: &[u32] = bytemuck::cast_slice(records);
+    let mut columns: Vec<u32> = Vec::with_capacity(words.len());
+    for column in 0..words_each {
+        columns.extend(words.iter().skip(column).step_by(words_each));
+    }
+    let count = u32::try_from(records.len()).expect("a block's worth of records");
+    let block = Block::encode(BlockMeta { records: count, ..meta }, bytemuck::cast_slice(&columns), LEVEL)?;
+    Ok((block, tally(records)))
+}
+
+/// The records of a block; `None` if the payload does not hold what the block says.
+#[must_use]
+pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
+    let words_each = size_of::<T>() / 4;
+    let count = block.meta.records as usize;
+    if block.raw_len() != count * size_of::<T>() {
+        return None;
+    }
+    let mut columns = vec![0u32; count * words_each];
+    block.decode_into(bytemuck::cast_slice_mut(&mut columns))?;
+    let mut records = vec![T::zeroed(); count];
+    let words: &mut [u32] = bytemuck::cast_slice_mut(&mut records);
+    for (column, values) in columns.chunks_exact(count.max(1)).enumerate() {
+        for (word, value) in words.iter_mut().skip(column).step_by(words_each).zip(values) {
+            *word = *value;
+        }
+    }
+    let tally = tally(&records);
+    Some((records, tally))
+}
+
+fn tally<T: Record>(records: &[T]) -> Tally {
+    let mut tally = Tally::default();
+    records.iter().for_each(|record| tally.count(bytemuck::bytes_of(record)));
+    tally
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_the_papers() {
+        assert_eq!(size_of::<Photon>(), 20);
+        assert_eq!(size_of::<Query>(), 44);
+    }
+
+    #[test]
+    fn a_block_gives_its_records_back() {
+        let records: Vec<Photon> = (0..100u8)
+            .map(|i| {
+                Photon::new([f32::from(i), 0.5, -1.0], [1.0, 2.0, 3.0], [0.5; 3], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+            })
+            .map(Option::unwrap)
+            .collect();
+        for n in [0, 1, 100] {
+            let meta = BlockMeta { batch: 7, warm_up: true, records: 0 };
+            let (block, tally) = encode_records(meta, &records[..n]).unwrap();
+            assert_eq!(decode_records::<Photon>(&block), Some((records[..n].to_vec(), tally)));
+            assert_eq!(block.meta, BlockMeta { records: n as u32, ..meta });
+            // The wrong kind of record does not fit.
+            assert!(n == 0 || decode_records::<Query>(&block).is_none());
+        }
+    }
+
+    #[test]
+    fn the_split_axis_leaves_the_normal_alone() {
+        let photon = Photon::new([0.0; 3], [1.0; 3], [0.5; 3], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]).unwrap();
+        for axis in [2, 0, 1] {
+            let node = photon.with_axis(axis);
+            assert_eq!(node.axis(), axis);
+            assert_eq!(node.normal(), [0.0, -1.0, 0.0]);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The gather query: 44 bytes, the size of the paper's deferred search (section 3.2).
+
+use super::Record;
+use super::pack::{pack_direction, unpack_direction};
+use crate::container::{Header, Kind};
+use bytemuck::{Pod, Zeroable};
+
+/// Where a radiance estimate is wanted, and what becomes of it.
+///
+/// (`pixel`, `sample`) identifies a query for ever, in whatever order it is met.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Query {
+    /// Where, in scene units.
+    pub position: [f32; 3],
+    /// Surface normal on the viewer's side, octahedral, 16 bits a coordinate.
+    pub normal: u32,
+    /// Direction towards the viewer, octahedral, 16 bits a coordinate.
+    pub view: u32,
+    /// Material, an index into the header's table.
+    pub material: u16,
+    /// Reserved, 0.
+    pub flags: u16,
+    /// Destination pixel, counted row by row from the upper left corner.
+    pub pixel: u32,
+    /// Sample number within the pixel.
+    pub sample: u32,
+    /// What the radiance is multiplied by before it is added to the pixel, linear RGB.
+    pub weight: [f32; 3],
+}
+
+impl Query {
+    /// Packs the two unit vectors of a query.
+    #[must_use]
+    pub fn pack_vectors(normal: [f32; 3], view: [f32; 3]) -> (u32, u32) {
+        (pack_direction::<16>(normal), pack_direction::<16>(view))
+    }
+
+    /// Unit normal of the surface, on the viewer's side.
+    #[must_use]
+    pub fn normal(&self) -> [f32; 3] {
+        unpack_direction::<16>(self.normal)
+    }
+
+    /// Unit vector towards the viewer.
+    #[must_use]
+    pub fn view(&self) -> [f32; 3] {
+        unpack_direction::<16>(self.view)
+    }
+}
+
+impl Record for Query {
+    const KIND: Kind = Kind::Queries;
+
+    fn problem(&self, header: &Header) -> Option<&'static str> {
+        if !self.position.iter().chain(&self.weight).all(|x| x.is_finite()) {
+            Some("a query's position or weight is not finite")
+        } else if usize::from(self.material) >= header.materials.len() {
+            Some("a query's material is not in the table")
+        } else if u64::from(self.pixel) >= header.pixels() {
+            Some("a query's pixel lies outside the image")
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Blocks into searches.
+
+use super::access::{Access, AccessKind, Coding, Region, TraceSink};
+use super::heap_walk::{self, BitReader};
+use super::varint::{take, unzigzag};
+use crate::container::Block;
+use crate::digest::Tally;
+
+/// Replays the searches of a block; `None` if it does not hold what it says. What was replayed before the fault was
+/// found is then worthless.
+pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceSink) -> Option<Tally> {
+    let payload = block.decode()?;
+    let mut planes = Planes::split(&payload)?;
+    let mut tally = Tally::default();
+    let (mut pixels, mut scratch) = (vec![], vec![]);
+    let mut last_pixel = 0u32;
+    sink.block(block.meta.batch, block.meta.warm_up);
+    for _ in 0..block.meta.records {
+        let before = planes;
+        pixels.clear();
+        let queries = take(&mut planes.destinations)?;
+        // A query costs at least one byte of this plane, so this is no more than is there.
+        for _ in 0..queries {
+            let delta = unzigzag(take(&mut planes.destinations)?);
+            last_pixel = u32::try_from(i64::from(last_pixel).checked_add(delta)?).ok()?;
+            pixels.push(last_pixel);
+        }
+        sink.search(&pixels);
+        decode_accesses(&mut planes, regions, sink)?;
+        sink.search_end();
+
+        // The digest is that of the absolute pixels and of the search's own bytes: the same wherever it stands.
+        scratch.clear();
+        scratch.extend_from_slice(&queries.to_le_bytes());
+        pixels.iter().for_each(|pixel| scratch.extend_from_slice(&pixel.to_le_bytes()));
+        let used = |before: &[u8], after: &[u8]| before.len() - after.len();
+        scratch.extend_from_slice(&before.heads[..used(before.heads, planes.heads)]);
+        scratch.extend_from_slice(&before.walks[..used(before.walks, planes.walks)]);
+        scratch.extend_from_slice(&before.others[..used(before.others, planes.others)]);
+        tally.count(&scratch);
+    }
+    planes.is_empty().then_some(tally)
+}
+
+fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl TraceSink) -> Option<()> {
+    let mut bits = BitReader::new(planes.walks);
+    let mut last = 0i64;
+    for _ in 0..take(&mut planes.heads)? {
+        let head = take(&mut planes.heads)?;
+        let number = u16::try_from(head >> 1).ok()?;
+        let region = regions.get(usize::from(number))?;
+        let size = region.record_size;
+        if head & 1 == 1 {
+            let Coding::HeapWalk { nodes } = region.coding else { return None };
+            let read = |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
+            heap_walk::decode(&mut bits, nodes, read)?;
+            continue;
+        }
+        for _ in 0..take(&mut planes.heads)? {
+            let token = take(&mut planes.others)?;
+            let access = if token & 1 == 0 {
+                last = last.checked_add(unzigzag(token >> 1))?;
+                Access::read(number, u64::try_from(last).ok()?.checked_mul(u64::from(size))?, size)
+            } else {
+                last = last.checked_add(unzigzag(take(&mut planes.others)?))?;
+                let kind = match token >> 1 {
+                    0 => AccessKind::Read,
+                    1 => AccessKind::Write,
+                    2 => AccessKind::ReadModifyWrite,
+                    _ => return None,
+                };
+                let len = u32::try_from(take(&mut planes.others)?).ok()?;
+                Access { kind, region: number, len, offset: u64::try_from(last).ok()? }
+            };
+            if access.offset.checked_add(u64::from(access.len))? > region.size {
+                return None;
+            }
+            sink.access(access);
+        }
+    }
+    bits.align();
+    planes.walks = planes.walks.get(bits.bytes_read()..)?;
+    Some(())
+}
+
+/// The four planes of a block's payload, as far as they are not yet read.
+#[derive(Clone, Copy)]
+struct Planes<'a> {
+    heads: &'a [u8],
+    destinations: &'a [u8],
+    walks: &'a [u8],
+    others: &'a [u8],
+}
+
+impl<'a> Planes<'a> {
+    fn split(payload: &'a [u8]) -> Option<Self> {
+        let (lens, rest) = payload.split_at_checked(12)?;
+        let len = |i: usize| u32::from_le_bytes(lens[4 * i..4 * i + 4].try_into().expect("four bytes")) as usize;
+        let (heads, rest) = rest.split_at_checked(len(0))?;
+        let (destinations, rest) = rest.split_at_checked(len(1))?;
+        let (walks, others) = rest.split_at_checked(len(2))?;
+        Some(Self { heads, destinations, walks, others })
+    }
+
+    const fn is_empty(&self) -> bool {
+        self.heads.is_empty() && self.destinations.is_empty() && self.walks.is_empty() && self.others.is_empty()
+    }
+}

@@ -1,0 +1,152 @@
+//! Searches into blocks.
+
+use super::access::{Access, AccessKind, Coding, Region};
+use super::heap_walk::{self, BitWriter};
+use super::varint::{push, zigzag};
+use crate::container::{Block, BlockMeta};
+use crate::digest::Tally;
+use crate::error::{Error, Result};
+
+/// zstd level of trace blocks: decision bits gain a third at level 3 and little beyond.
+const LEVEL: i32 = 3;
+
+/// Codes the searches of one block.
+///
+/// For each search: [`begin`](Self::begin), any number of [`records`](Self::records) and [`access`](Self::access), then
+/// [`end`](Self::end). What a search costs and what its digest is do not depend on the searches around it.
+pub struct BlockEncoder<'a> {
+    regions: &'a [Region],
+    heads: Vec<u8>,
+    destinations: Vec<u8>,
+    walks: BitWriter,
+    others: Vec<u8>,
+    last_pixel: u32,
+    tally: Tally,
+    current: Current,
+    scratch: Vec<u8>,
+}
+
+/// What is known of the search being coded.
+#[derive(Default)]
+struct Current {
+    segments: u64,
+    heads: Vec<u8>,
+    walks_from: usize,
+    others_from: usize,
+    /// Record index or offset last coded generically.
+    last: i64,
+    pixels: Vec<u32>,
+}
+
+impl<'a> BlockEncoder<'a> {
+    /// An encoder for accesses to these regions.
+    #[must_use]
+    pub fn new(regions: &'a [Region]) -> Self {
+        Self {
+            regions,
+            heads: vec![],
+            destinations: vec![],
+            walks: BitWriter::default(),
+            others: vec![],
+            last_pixel: 0,
+            tally: Tally::default(),
+            current: Current::default(),
+            scratch: vec![],
+        }
+    }
+
+    /// A search begins that serves one query for each of `destinations`.
+    pub fn begin(&mut self, destinations: &[u32]) {
+        push(&mut self.destinations, destinations.len() as u64);
+        for &pixel in destinations {
+            push(&mut self.destinations, zigzag(i64::from(pixel) - i64::from(self.last_pixel)));
+            self.last_pixel = pixel;
+        }
+        let current = &mut self.current;
+        current.segments = 0;
+        current.heads.clear();
+        current.walks_from = self.walks.bytes.len();
+        current.others_from = self.others.len();
+        current.last = 0;
+        current.pixels.clear();
+        current.pixels.extend_from_slice(destinations);
+    }
+
+    /// The search reads whole records of a region, given by index, in this order.
+    pub fn records(&mut self, region: u16, indices: &[u32]) {
+        let mut rest = indices;
+        if let Coding::HeapWalk { nodes } = self.regions[usize::from(region)].coding {
+            while let Some(len) = heap_walk::encode(rest, nodes, &mut self.walks) {
+                self.segment(region, true, 0);
+                rest = &rest[len..];
+            }
+        }
+        if !rest.is_empty() {
+            self.segment(region, false, rest.len() as u64);
+            for &index in rest {
+                let delta = i64::from(index) - self.current.last;
+                push(&mut self.others, zigzag(delta) << 1);
+                self.current.last = i64::from(index);
+            }
+        }
+    }
+
+    /// The search makes an access of any kind.
+    #[expect(clippy::cast_possible_wrap, reason = "offsets lie within a region, far below 2^63")]
+    pub fn access(&mut self, access: Access) {
+        let size = u64::from(self.regions[usize::from(access.region)].record_size.max(1));
+        let whole = access.kind == AccessKind::Read
+            && u64::from(access.len) == size
+            && access.offset.is_multiple_of(size)
+            && access.offset / size <= u64::from(u32::MAX);
+        if whole {
+            #[expect(clippy::cast_possible_truncation, reason = "checked above")]
+            return self.records(access.region, &[(access.offset / size) as u32]);
+        }
+        self.segment(access.region, false, 1);
+        push(&mut self.others, ((access.kind as u64) << 1) | 1);
+        push(&mut self.others, zigzag(access.offset as i64 - self.current.last));
+        push(&mut self.others, u64::from(access.len));
+        self.current.last = access.offset as i64;
+    }
+
+    fn segment(&mut self, region: u16, walk: bool, count: u64) {
+        self.current.segments += 1;
+        push(&mut self.current.heads, u64::from(region) << 1 | u64::from(walk));
+        if !walk {
+            push(&mut self.current.heads, count);
+        }
+    }
+
+    /// The search is over.
+    pub fn end(&mut self) {
+        self.walks.align();
+        let from = self.heads.len();
+        push(&mut self.heads, self.current.segments);
+        self.heads.extend_from_slice(&self.current.heads);
+        let scratch = &mut self.scratch;
+        scratch.clear();
+        scratch.extend_from_slice(&(self.current.pixels.len() as u64).to_le_bytes());
+        self.current.pixels.iter().for_each(|pixel| scratch.extend_from_slice(&pixel.to_le_bytes()));
+        scratch.extend_from_slice(&self.heads[from..]);
+        scratch.extend_from_slice(&self.walks.bytes[self.current.walks_from..]);
+        scratch.extend_from_slice(&self.others[self.current.others_from..]);
+        self.tally.count(scratch);
+    }
+
+    /// Compresses the searches into a block.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if they are too many for one.
+    pub fn finish(self, meta: BlockMeta) -> Result<(Block, Tally)> {
+        let planes = [&self.heads, &self.destinations, &self.walks.bytes, &self.others];
+        let mut payload = Vec::with_capacity(12 + planes.iter().map(|plane| plane.len()).sum::<usize>());
+        for plane in &planes[..3] {
+            let len = u32::try_from(plane.len()).map_err(|_| Error::Invalid("too many searches in a block".into()))?;
+            payload.extend_from_slice(&len.to_le_bytes());
+        }
+        planes.iter().for_each(|plane| payload.extend_from_slice(plane));
+        let records = u32::try_from(self.tally.records).expect("a block's worth of searches");
+        Ok((Block::encode(BlockMeta { records, ..meta }, &payload, LEVEL)?, self.tally))
+    }
+}
