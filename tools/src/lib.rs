@@ -1,3 +1,8 @@
-//! x
+//! Photon maps, gather queries, their orders, and the caches they meet: the library behind the pm programs.
+//!
+//! `README.md` beside this crate is the map of the code and says which module may know which.
+
 pub mod cache;
+pub mod cli;
+pub mod parallel;
 pub mod scene;

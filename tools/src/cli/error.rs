@@ -1,0 +1,67 @@
+//! Outcomes: one line on standard error and an exit code.
+
+use super::output::{ReaderGone, unfinished_files};
+use super::say;
+use std::fmt;
+use std::io;
+use std::process::ExitCode;
+
+/// The program was asked wrongly (exit code 2).
+#[derive(Debug)]
+pub struct UsageError(String);
+
+impl fmt::Display for UsageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for UsageError {}
+
+/// An error that says the program was asked wrongly.
+pub fn usage(text: impl Into<String>) -> anyhow::Error {
+    UsageError(text.into()).into()
+}
+
+/// Prints what went wrong, if anything, and chooses the exit code.
+pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
+    let Err(error) = outcome else { return ExitCode::SUCCESS };
+    if is_reader_gone(&error) {
+        let files = unfinished_files();
+        if files.is_empty() {
+            return ExitCode::SUCCESS;
+        }
+        say(format!("the reader of standard output left early: {} not written", files.join(", ")));
+        return ExitCode::from(1);
+    }
+    // Causes are joined on one line; a library that repeats its cause in its own message is not quoted twice.
+    let mut text = String::new();
+    for cause in error.chain() {
+        let cause = cause.to_string().replace('\n', " ");
+        if !text.ends_with(&cause) {
+            if !text.is_empty() {
+                text.push_str(": ");
+            }
+            text.push_str(&cause);
+        }
+    }
+    say(text);
+    let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
+    if found(|cause| cause.is::<UsageError>()) {
+        ExitCode::from(2)
+    } else if found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage)) {
+        ExitCode::from(3)
+    } else {
+        ExitCode::from(1)
+    }
+}
+
+fn is_reader_gone(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        let io = match cause.downcast_ref::<pm_formats::Error>() {
+            Some(pm_formats::Error::Io(io)) => Some(io),
+            _ => cause.downcast_ref::<io::Error>(),
+        };
+        io.and_then(io::Error::get_ref).is_some_and(|inner| inner.is::<ReaderGone>())
+    })
+}

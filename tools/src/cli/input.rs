@@ -1,0 +1,58 @@
+//! Input streams: a file, or standard input by `-`.
+
+use super::error::usage;
+use anyhow::Context as _;
+use pm_formats::BlockReader;
+use std::fs::File;
+use std::io::{self, BufReader, IsTerminal as _, Read};
+use std::os::fd::AsFd as _;
+use std::path::Path;
+
+/// An input stream that names itself in its errors.
+pub struct Input {
+    name: String,
+    file: BufReader<File>,
+}
+
+impl Read for Input {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.file.read(buffer).map_err(|error| io::Error::new(error.kind(), format!("cannot read: {error}")))
+    }
+}
+
+/// How an input is called in messages.
+#[must_use]
+pub fn named(path: &Path) -> String {
+    if path == Path::new("-") { "standard input".into() } else { path.display().to_string() }
+}
+
+/// Opens a stream and reads its header.
+///
+/// # Errors
+/// If there is no such file, if a terminal would have to type the stream, or if the header is not one of ours.
+pub fn open_input(path: &Path) -> anyhow::Result<BlockReader<Input>> {
+    let name = named(path);
+    let file = if path == Path::new("-") {
+        let stdin = io::stdin();
+        if stdin.is_terminal() {
+            return Err(usage("a stream is expected on standard input; pipe one in or name a file (see --help)"));
+        }
+        // Past std's own buffer: blocks are large, and whoever shares the descriptor finds what was not read.
+        File::from(stdin.as_fd().try_clone_to_owned().context("standard input")?)
+    } else {
+        File::open(path).with_context(|| name.clone())?
+    };
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        return Err(usage(format!("{name} is a folder; a stream is expected")));
+    }
+    let input = Input { name: name.clone(), file: BufReader::with_capacity(1 << 18, file) };
+    BlockReader::new(input).context(name)
+}
+
+impl Input {
+    /// How the input is called in messages.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}

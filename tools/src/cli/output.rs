@@ -1,0 +1,164 @@
+//! Outputs: standard output, or a file that appears whole or not at all.
+
+use super::error::usage;
+use anyhow::Context as _;
+use std::fmt;
+use std::fs::{self, File, Permissions};
+use std::io::{self, BufWriter, IsTerminal as _, Write};
+use std::os::fd::AsFd as _;
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use tempfile::NamedTempFile;
+
+/// Where a program writes its stream.
+#[derive(clap::Args, Clone, Debug)]
+pub struct OutputArgs {
+    /// File to write; it appears when it is whole. `-` is standard output, even if that is a terminal
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+impl OutputArgs {
+    /// Opens the output for binary data.
+    ///
+    /// # Errors
+    /// If it would go to a terminal unasked, or cannot be opened.
+    pub fn create(&self) -> anyhow::Result<Output> {
+        match &self.output {
+            Some(path) => create_output(path),
+            None if io::stdout().is_terminal() => {
+                Err(usage("binary data is not written to a terminal; pipe it (`| pm-view`) or give `-o FILE`"))
+            }
+            None => create_output(Path::new("-")),
+        }
+    }
+}
+
+/// Whoever read standard output has closed it.
+#[derive(Debug)]
+pub(super) struct ReaderGone;
+
+impl fmt::Display for ReaderGone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the reader of standard output left")
+    }
+}
+
+impl std::error::Error for ReaderGone {}
+
+/// Temporary files that stand for outputs not yet whole, and the names these shall have.
+static UNFINISHED: Mutex<Vec<(PathBuf, PathBuf)>> = Mutex::new(Vec::new());
+
+/// An output. Only [`commit`](Self::commit) makes a file of it.
+pub struct Output {
+    name: String,
+    target: Target,
+}
+
+enum Target {
+    /// Standard output.
+    Standard(BufWriter<File>),
+    /// A device or FIFO, which is written as it is.
+    Direct(BufWriter<File>),
+    /// A file under a temporary name beside `path`.
+    Atomic { file: BufWriter<NamedTempFile>, path: PathBuf },
+}
+
+/// Opens an output; `-` is standard output.
+///
+/// # Errors
+/// If it cannot be opened.
+pub fn create_output(path: &Path) -> anyhow::Result<Output> {
+    const CAPACITY: usize = 1 << 18;
+    if path == Path::new("-") {
+        let file = File::from(io::stdout().as_fd().try_clone_to_owned().context("standard output")?);
+        let target = Target::Standard(BufWriter::with_capacity(CAPACITY, file));
+        return Ok(Output { name: "standard output".into(), target });
+    }
+    let name = path.display().to_string();
+    // A symlink stays and its target is replaced.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let existing = fs::metadata(&path).ok();
+    if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
+        return Err(usage(format!("{name} is a folder; name a file")));
+    }
+    if existing.as_ref().is_some_and(|metadata| !metadata.is_file()) {
+        let file = File::options().write(true).open(&path).with_context(|| format!("cannot write {name}"))?;
+        return Ok(Output { name, target: Target::Direct(BufWriter::with_capacity(CAPACITY, file)) });
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // A new file gets what the umask leaves, an old one keeps its permissions.
+    let mode = existing.map_or(0o666, |metadata| metadata.permissions().mode());
+    let file = tempfile::Builder::new()
+        .prefix(&format!(".{}.", path.file_name().unwrap_or_default().to_string_lossy()))
+        .suffix(".tmp")
+        .permissions(Permissions::from_mode(mode))
+        .tempfile_in(folder)
+        .with_context(|| format!("cannot write {name}"))?;
+    unfinished().push((file.path().to_owned(), path.clone()));
+    Ok(Output { name, target: Target::Atomic { file: BufWriter::with_capacity(CAPACITY, file), path } })
+}
+
+impl Output {
+    /// Flushes what is buffered and lets the file appear under its name.
+    ///
+    /// # Errors
+    /// If the rest cannot be written or the file not be renamed.
+    pub fn commit(mut self) -> anyhow::Result<()> {
+        self.flush()?;
+        let Target::Atomic { file, path } = self.target else { return Ok(()) };
+        let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let temporary = file.path().to_owned();
+        file.persist(&path).map_err(|error| error.error).with_context(|| format!("cannot write {}", self.name))?;
+        unfinished().retain(|(known, _)| *known != temporary);
+        Ok(())
+    }
+
+    fn explain(&self, error: io::Error) -> io::Error {
+        if error.kind() == io::ErrorKind::BrokenPipe && matches!(self.target, Target::Standard(_)) {
+            return io::Error::new(error.kind(), ReaderGone);
+        }
+        io::Error::new(error.kind(), format!("cannot write {}: {error}", self.name))
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match &mut self.target {
+            Target::Standard(file) | Target::Direct(file) => file.write(bytes),
+            Target::Atomic { file, .. } => file.write(bytes),
+        };
+        written.map_err(|error| self.explain(error))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = match &mut self.target {
+            Target::Standard(file) | Target::Direct(file) => file.flush(),
+            Target::Atomic { file, .. } => file.flush(),
+        };
+        flushed.map_err(|error| self.explain(error))
+    }
+}
+
+fn unfinished() -> std::sync::MutexGuard<'static, Vec<(PathBuf, PathBuf)>> {
+    UNFINISHED.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// Names of the files that were asked for and have not appeared.
+pub(super) fn unfinished_files() -> Vec<String> {
+    unfinished().iter().map(|(_, path)| path.display().to_string()).collect()
+}
+
+/// A program that is told to stop (interrupt, hang-up, terminate) takes its half-written files with it.
+pub(super) fn remove_temporary_files_on_signals() {
+    let handler = || {
+        for (temporary, _) in unfinished().iter() {
+            let _ = fs::remove_file(temporary);
+        }
+        // 128 + SIGINT, as shells report it.
+        std::process::exit(130);
+    };
+    // Without a handler the program still works; only the temporary file would stay behind.
+    let _ = ctrlc::set_handler(handler);
+}

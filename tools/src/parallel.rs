@@ -1,0 +1,115 @@
+//! Work on many threads with results in order: what is done never depends on how many there are.
+
+use crossbeam_channel::bounded;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+/// Takes jobs from `next` until it says `None`, does `work` on them on `threads` threads, and hands the results to `take`
+/// in the order of the jobs. `next` and `take` run on the calling thread. At most a few jobs per thread are held.
+///
+/// # Errors
+/// The first error of `next` or `take`; jobs begun by then are finished and dropped.
+pub fn in_order<I: Send, O: Send, E>(
+    threads: usize,
+    mut next: impl FnMut() -> Result<Option<I>, E>,
+    work: impl Fn(I) -> O + Sync,
+    mut take: impl FnMut(O) -> Result<(), E>,
+) -> Result<(), E> {
+    if threads <= 1 {
+        while let Some(job) = next()? {
+            take(work(job))?;
+        }
+        return Ok(());
+    }
+    let in_flight = 3 * threads as u64;
+    let (job_sender, jobs) = bounded::<(u64, I)>(3 * threads);
+    let (result_sender, results) = bounded(3 * threads);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            let (jobs, results, work) = (jobs.clone(), result_sender.clone(), &work);
+            scope.spawn(move || {
+                for (number, job) in jobs {
+                    // A panic must reach the caller, who would otherwise wait for this result for ever.
+                    let result = catch_unwind(AssertUnwindSafe(|| work(job)));
+                    if results.send((number, result)).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        // Dropped on every way out, so that the threads end.
+        let (job_sender, results) = (job_sender, results);
+        let (mut sent, mut taken, mut more) = (0, 0, true);
+        let mut early = BTreeMap::new();
+        loop {
+            while more && sent - taken < in_flight {
+                match next()? {
+                    Some(job) => {
+                        job_sender.send((sent, job)).expect("the threads live as long as the sender");
+                        sent += 1;
+                    }
+                    None => more = false,
+                }
+            }
+            if taken == sent {
+                return Ok(());
+            }
+            let (number, result) = results.recv().expect("a job is under way");
+            early.insert(number, result.unwrap_or_else(|panic| resume_unwind(panic)));
+            while let Some(result) = early.remove(&taken) {
+                taken += 1;
+                take(result)?;
+            }
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_the_order_of_the_jobs() {
+        for threads in [1, 2, 5] {
+            let mut jobs = 0..200u64;
+            let mut got = vec![];
+            let slow_when_even = |n: u64| {
+                if n.is_multiple_of(2) {
+                    std::thread::yield_now();
+                }
+                n * n
+            };
+            in_order(
+                threads,
+                || Ok::<_, ()>(jobs.next()),
+                slow_when_even,
+                |n| {
+                    got.push(n);
+                    Ok(())
+                },
+            )
+            .unwrap();
+            assert_eq!(got, (0..200).map(|n| n * n).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn an_error_ends_it() {
+        for threads in [1, 3] {
+            let mut jobs = 0..;
+            let outcome = in_order(threads, || Ok(jobs.next()), |n: u32| n, |n| if n < 10 { Ok(()) } else { Err(n) });
+            assert_eq!(outcome, Err(10));
+            let mut jobs = 0..;
+            let next = || jobs.next().filter(|&n| n < 10).map(Some).ok_or("no more");
+            assert_eq!(in_order(threads, next, |n: u32| n, |_| Ok(())), Err("no more"));
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "seven")]
+    fn a_panic_reaches_the_caller() {
+        let mut jobs = 0..100;
+        let work = |n: u32| assert!(n != 7, "seven");
+        let _ = in_order(2, || Ok::<_, ()>(jobs.next()), work, |()| Ok(()));
+    }
+}
