@@ -5,4 +5,6 @@
 pub mod cache;
 pub mod cli;
 pub mod parallel;
+pub mod photon_map;
+pub mod random;
 pub mod scene;

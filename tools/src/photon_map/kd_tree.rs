@@ -1,0 +1,174 @@
+//! The left-balanced kd-tree of Jensen's photon map: one photon a node, no pointers, children of node i at 2i and 2i + 1.
+//!
+//! Bentley, *Multidimensional binary search trees used for associative searching*, CACM 18(9), 1975; Jensen, *Realistic
+//! Image Synthesis Using Photon Mapping*, 2001, appendix B.
+
+use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared};
+use pm_formats::Photon;
+use pm_formats::trace::{Coding, Region, lay_out};
+
+/// Deepest tree of at most 2^30 nodes, and one more.
+const MAX_DEPTH: usize = 32;
+
+/// The tree. In the memory that is traced a node is the 20-byte photon with its split axis; here it holds what a search
+/// needs, in 16 bytes.
+pub struct KdTree {
+    /// Node i at index i - 1.
+    nodes: Vec<Node>,
+}
+
+#[derive(Clone, Copy, Default)]
+#[repr(C, align(16))]
+struct Node {
+    position: [f32; 3],
+    /// Photon id in the low 30 bits, split axis in the high two.
+    id_and_axis: u32,
+}
+
+impl Node {
+    #[inline(always)]
+    const fn id(self) -> u32 {
+        self.id_and_axis & 0x3fff_ffff
+    }
+
+    #[inline(always)]
+    const fn axis(self) -> usize {
+        (self.id_and_axis >> 30) as usize
+    }
+}
+
+impl KdTree {
+    /// Builds the tree in O(n log n). Each node splits along the longest side of its cell (the cell is cut by every split
+    /// above, not shrunk to its photons); photons are ordered by (coordinate, id), so equal coordinates do no harm.
+    ///
+    /// # Errors
+    /// See [`BuildError`].
+    pub fn build(photons: &[Photon]) -> Result<Self, BuildError> {
+        check(photons)?;
+        let mut rest: Vec<Node> =
+            (0..).zip(photons).map(|(id, photon)| Node { position: photon.position, id_and_axis: id }).collect();
+        let mut cell = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for node in &rest {
+            for axis in 0..3 {
+                cell.0[axis] = cell.0[axis].min(node.position[axis]);
+                cell.1[axis] = cell.1[axis].max(node.position[axis]);
+            }
+        }
+        let mut nodes = vec![Node::default(); rest.len()];
+        balance(&mut nodes, 1, &mut rest, cell);
+        Ok(Self { nodes })
+    }
+
+    /// Split axis and photon id of each node, in the order of the traced memory.
+    pub fn nodes(&self) -> impl Iterator<Item = (usize, u32)> {
+        self.nodes.iter().map(|node| (node.axis(), node.id()))
+    }
+}
+
+/// Number of nodes in the left subtree of a left-balanced tree of `n` nodes: all levels full but the last, which fills
+/// from the left.
+fn left_size(n: usize) -> usize {
+    if n < 2 {
+        return 0;
+    }
+    let full = 1 << n.ilog2();
+    let last = n - (full - 1);
+    (full / 2 - 1) + last.min(full / 2)
+}
+
+fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f32; 3])) {
+    if rest.is_empty() {
+        return;
+    }
+    let side = |axis: usize| cell.1[axis] - cell.0[axis];
+    let axis = (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest });
+    let middle = left_size(rest.len());
+    let (left, &mut median, right) = rest.select_nth_unstable_by(middle, |a, b| {
+        // No NaN gets here; -0 and 0 are one coordinate.
+        a.position[axis].partial_cmp(&b.position[axis]).unwrap_or(std::cmp::Ordering::Equal).then(a.id().cmp(&b.id()))
+    });
+    let split = median.position[axis];
+    nodes[at - 1] = Node { id_and_axis: median.id() | (axis as u32) << 30, ..median };
+    let (mut left_cell, mut right_cell) = (cell, cell);
+    left_cell.1[axis] = split;
+    right_cell.0[axis] = split;
+    balance(nodes, 2 * at, left, left_cell);
+    balance(nodes, 2 * at + 1, right, right_cell);
+}
+
+impl PhotonMap for KdTree {
+    fn regions(&self) -> Vec<Region> {
+        let record = size_of::<Photon>() as u32;
+        let nodes = u32::try_from(self.nodes.len()).expect("checked when built");
+        lay_out([("kd nodes".into(), u64::from(nodes) * u64::from(record), record, Coding::HeapWalk { nodes })])
+    }
+
+    fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Jensen's search: the child on the query's side first, then the other if the splitting plane lies within the
+    /// bound, then the node's own photon. A node is read once, when it is reached.
+    fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        let nodes = &self.nodes[..];
+        let count = nodes.len();
+        if count == 0 {
+            return;
+        }
+        // Nodes above whose second child and own photon are still to be looked at: node, second child (0: done with),
+        // squared distance to the splitting plane.
+        let mut above = [(0u32, 0u32, 0f32); MAX_DEPTH];
+        let mut depth = 0;
+        let mut at = 1;
+        loop {
+            let node = nodes[at - 1];
+            eyes.read(0, (at - 1) as u32);
+            let left = 2 * at;
+            if left <= count {
+                let axis = node.axis();
+                let delta = point[axis] - node.position[axis];
+                let (near, far) = if delta > 0.0 { (left + 1, left) } else { (left, left + 1) };
+                if near <= count {
+                    above[depth] = (at as u32, if far <= count { far as u32 } else { 0 }, delta * delta);
+                    depth += 1;
+                    at = near;
+                    continue;
+                }
+                // The only child lies on the other side.
+                if delta * delta <= found.bound() {
+                    above[depth] = (at as u32, 0, 0.0);
+                    depth += 1;
+                    at = far;
+                    continue;
+                }
+            }
+            found.show(distance_squared(point, node.position), node.id());
+            loop {
+                if depth == 0 {
+                    return;
+                }
+                let (parent, far, plane) = above[depth - 1];
+                // Not `<`: a photon as far as the farthest found may have the smaller id.
+                if far != 0 && plane <= found.bound() {
+                    above[depth - 1].1 = 0;
+                    at = far as usize;
+                    break;
+                }
+                depth -= 1;
+                let node = nodes[parent as usize - 1];
+                found.show(distance_squared(point, node.position), node.id());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_left_subtree_fills_the_last_level_from_the_left() {
+        let sizes: Vec<_> = (0..=15).map(left_size).collect();
+        assert_eq!(sizes, [0, 0, 1, 1, 2, 3, 3, 3, 4, 5, 6, 7, 7, 7, 7, 7]);
+    }
+}

@@ -1,0 +1,179 @@
+//! The k nearest so far.
+
+/// Keeps the k nearest of the photons it is shown, within a bound that shrinks once there are k.
+///
+/// Candidates are single integers, distance bits above the photon id: for non-negative floats the bits order as the
+/// numbers do, so one comparison orders by distance and then by id.
+pub struct Nearest {
+    k: usize,
+    /// Unordered until there are k; then a max-heap.
+    keys: Vec<u64>,
+    bound: f32,
+}
+
+impl Nearest {
+    /// Room for `k` photons, none of them farther than the square root of `bound`.
+    ///
+    /// # Panics
+    /// If k is 0.
+    #[must_use]
+    pub fn new(k: usize, bound: f32) -> Self {
+        assert!(k > 0, "the nearest 0 photons are no question");
+        Self { k, keys: Vec::with_capacity(k.min(1 << 16)), bound }
+    }
+
+    /// Forgets all photons and starts again with this bound on the squared distance.
+    #[inline]
+    pub fn restart(&mut self, bound: f32) {
+        self.keys.clear();
+        self.bound = bound;
+    }
+
+    /// Largest squared distance that a photon may still have.
+    #[inline(always)]
+    #[must_use]
+    pub const fn bound(&self) -> f32 {
+        self.bound
+    }
+
+    /// Shows a photon at this squared distance.
+    #[inline]
+    pub fn show(&mut self, distance_squared: f32, id: u32) {
+        // Also false for NaN.
+        if distance_squared <= self.bound {
+            self.insert(u64::from(distance_squared.to_bits()) << 32 | u64::from(id));
+        }
+    }
+
+    fn insert(&mut self, key: u64) {
+        if self.keys.len() < self.k {
+            self.keys.push(key);
+            if self.keys.len() == self.k {
+                for at in (0..self.k / 2).rev() {
+                    self.sift_down(at, self.keys[at]);
+                }
+                self.tighten();
+            }
+        } else if key < self.keys[0] {
+            self.sift_down(0, key);
+            self.tighten();
+        }
+    }
+
+    /// Puts `key` at `at` or below it, wherever the heap wants it.
+    fn sift_down(&mut self, mut at: usize, key: u64) {
+        let keys = &mut self.keys[..];
+        loop {
+            let left = 2 * at + 1;
+            if left >= keys.len() {
+                break;
+            }
+            let right = left + 1;
+            let larger = if right < keys.len() && keys[right] > keys[left] { right } else { left };
+            if keys[larger] <= key {
+                break;
+            }
+            keys[at] = keys[larger];
+            at = larger;
+        }
+        keys[at] = key;
+    }
+
+    fn tighten(&mut self) {
+        self.bound = distance_of(self.keys[0]);
+    }
+
+    /// Number of photons asked for.
+    #[must_use]
+    pub const fn k(&self) -> usize {
+        self.k
+    }
+
+    /// Number of photons found.
+    #[inline]
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    /// True if none was found.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.keys.is_empty()
+    }
+
+    /// True if k were found.
+    #[inline]
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.keys.len() == self.k
+    }
+
+    /// Squared distance and id of the farthest photon found.
+    #[must_use]
+    pub fn farthest(&self) -> Option<(f32, u32)> {
+        let key = if self.is_full() { self.keys.first() } else { self.keys.iter().max() };
+        key.map(|&key| (distance_of(key), id_of(key)))
+    }
+
+    /// The photons found, in no particular order, as squared distance and id.
+    pub fn iter(&self) -> impl Iterator<Item = (f32, u32)> {
+        self.keys.iter().map(|&key| (distance_of(key), id_of(key)))
+    }
+
+    /// The photons found, nearest first, ties by id.
+    #[must_use]
+    pub fn sorted(&self) -> Vec<(f32, u32)> {
+        let mut keys = self.keys.clone();
+        keys.sort_unstable();
+        keys.into_iter().map(|key| (distance_of(key), id_of(key))).collect()
+    }
+}
+
+#[inline]
+fn distance_of(key: u64) -> f32 {
+    f32::from_bits((key >> 32) as u32)
+}
+
+#[inline]
+const fn id_of(key: u64) -> u32 {
+    key as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn keeps_the_k_smallest_by_distance_then_id(
+            // Few distinct distances, so that ties at the k-th are common.
+            distances in prop::collection::vec(0u8..12, 0..80), k in 1usize..20, bound in 0u8..14
+        ) {
+            let bound = f32::from(bound);
+            let mut found = Nearest::new(k, bound);
+            // Shown in a scrambled order: which of two equals comes first must not matter.
+            let n = distances.len();
+            for step in 0..n {
+                let id = (step * 7 + 3) % n.max(1);
+                if n % 7 == 0 { break; }
+                found.show(f32::from(distances[id]), id as u32);
+            }
+            prop_assume!(n % 7 != 0);
+            let mut expected: Vec<_> = distances.iter().enumerate().map(|(id, &d)| (f32::from(d), id as u32))
+                .filter(|&(d, _)| d <= bound).collect();
+            expected.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            expected.truncate(k);
+            prop_assert_eq!(found.sorted(), expected.clone());
+            prop_assert_eq!(found.farthest(), expected.last().copied());
+        }
+    }
+
+    #[test]
+    fn nan_is_never_near() {
+        let mut found = Nearest::new(1, f32::INFINITY);
+        found.show(f32::NAN, 0);
+        assert!(found.is_empty());
+    }
+}

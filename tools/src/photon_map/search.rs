@@ -1,0 +1,97 @@
+//! One search with its radii: a limit, which is part of the answer, and a hint where to start, which is not.
+
+use super::{AccessObserver, Blind, Nearest, PhotonMap};
+use crate::random::mix;
+use pm_formats::Photon;
+
+/// Where a search starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartRadius {
+    /// At the limit: the bound only shrinks once k photons are held.
+    Unbounded,
+    /// At a radius fit for the map: see [`Search::fit_start`].
+    Auto,
+    /// At this radius, in scene units.
+    Fixed(f32),
+}
+
+/// How photons are searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Number of photons.
+    pub k: usize,
+    /// Largest distance, in scene units; may be infinite.
+    pub max_dist: f32,
+    /// First radius tried; doubled until k photons are found or `max_dist` is reached. Changes reads, never neighbours.
+    pub start: f32,
+}
+
+/// Photons that [`StartRadius::Auto`] looks at.
+const FIT_SAMPLES: usize = 1000;
+/// Share of them whose k-th neighbour the start radius reaches.
+const FIT_QUANTILE: f64 = 0.99;
+
+impl Search {
+    /// A search for `k` photons within `max_dist` that starts at the limit.
+    #[must_use]
+    pub const fn new(k: usize, max_dist: f32) -> Self {
+        Self { k, max_dist, start: max_dist }
+    }
+
+    /// The radius that 0.99 of the searches at 1,000 photons need, chosen by a hash of their ids: it depends on the map
+    /// alone and not on the queries or their order.
+    #[must_use]
+    pub fn fit_start(mut self, map: &impl PhotonMap, photons: &[Photon]) -> Self {
+        let mut ids: Vec<u32> = (0..u32::try_from(photons.len()).expect("maps hold fewer than 2^30 photons")).collect();
+        if ids.len() > FIT_SAMPLES {
+            ids.select_nth_unstable_by_key(FIT_SAMPLES, |&id| (mix(u64::from(id)), id));
+            ids.truncate(FIT_SAMPLES);
+        }
+        let mut found = Nearest::new(self.k, f32::INFINITY);
+        let mut radii: Vec<f32> = ids
+            .iter()
+            .filter_map(|&id| {
+                found.restart(f32::INFINITY);
+                map.nearest(photons[id as usize].position, &mut found, &mut Blind);
+                found.is_full().then(|| found.bound().sqrt())
+            })
+            .collect();
+        radii.sort_by(f32::total_cmp);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "0 ..= 1000"
+        )]
+        let at = (FIT_QUANTILE * radii.len() as f64) as usize;
+        let radius = radii.get(at.min(radii.len().saturating_sub(1))).copied().filter(|&radius| radius > 0.0);
+        self.start = radius.unwrap_or(f32::INFINITY).min(self.max_dist);
+        self
+    }
+
+    /// Finds the photons nearest to `point`. Returns the number of attempts it took.
+    ///
+    /// Each attempt is a whole search: a machine that guessed its radius too small has read all of it.
+    #[inline]
+    pub fn run(
+        &self,
+        map: &impl PhotonMap,
+        point: [f32; 3],
+        found: &mut Nearest,
+        eyes: &mut impl AccessObserver,
+    ) -> u32 {
+        let mut radius = self.start.min(self.max_dist);
+        let mut attempts = 1;
+        loop {
+            found.restart(radius * radius);
+            map.nearest(point, found, eyes);
+            // With all photons in hand a larger radius finds no more.
+            if found.is_full() || radius >= self.max_dist || found.len() == map.len() {
+                return attempts;
+            }
+            attempts += 1;
+            // Past the square root of the largest number only infinity is left to try.
+            radius = if radius > 1e18 { f32::INFINITY } else { radius * 2.0 }.min(self.max_dist);
+        }
+    }
+}

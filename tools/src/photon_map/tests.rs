@@ -1,0 +1,162 @@
+//! Do all exact maps find the neighbours that looking at every photon finds, on inputs that break such maps?
+
+use super::*;
+use crate::random::Random;
+
+fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
+    let up = [0.0, 1.0, 0.0];
+    positions.into_iter().map(|p| Photon::new(p, [1.0; 3], [0.5; 3], up, up).unwrap()).collect()
+}
+
+fn random_points(n: usize, mut map: impl FnMut([f32; 3]) -> [f32; 3]) -> Vec<[f32; 3]> {
+    let mut random = Random::new(&[n as u64]);
+    (0..n).map(|_| map([(); 3].map(|()| random.unit()))).collect()
+}
+
+/// Inputs by name: what each is like, and where it is searched.
+fn cases() -> Vec<(&'static str, Vec<[f32; 3]>)> {
+    let lattice = (0..1000u16).map(|i| [i % 10, i / 10 % 10, i / 100].map(f32::from)).collect();
+    let clusters = random_points(900, |[x, y, z]| [(x * 3.0).floor() + y * 1e-4, (y * 2.0).floor(), z * 1e-3]);
+    let half = random_points(600, |p| if p[0] < 0.5 { [0.25; 3] } else { p });
+    vec![
+        ("none", vec![]),
+        ("one", vec![[0.5; 3]]),
+        ("two", vec![[0.0; 3], [1.0; 3]]),
+        ("15", random_points(15, |p| p)),
+        ("16", random_points(16, |p| p)),
+        ("17", random_points(17, |p| p)),
+        ("99", random_points(99, |p| p)),
+        ("257", random_points(257, |p| p)),
+        ("uniform", random_points(2000, |p| p)),
+        ("on a wall", random_points(1500, |[x, _, z]| [x, 0.0, z])),
+        ("on a line", random_points(500, |[x, _, _]| [0.3, x, 0.7])),
+        ("sorted line", (0..500u16).map(|i| [f32::from(i), 0.0, 0.0]).collect()),
+        ("identical", vec![[0.1, 0.2, 0.3]; 1000]),
+        ("two sites", (0..1000).map(|i| if i % 2 == 0 { [0.0; 3] } else { [1.0; 3] }).collect()),
+        ("half in one spot", half),
+        ("lattice with ties", lattice),
+        ("clusters", clusters),
+        ("offset 1e6", random_points(700, |p| p.map(|x| x + 1e6))),
+        ("scale 1e-6", random_points(700, |p| p.map(|x| x * 1e-6))),
+        ("denormal", random_points(300, |p| p.map(|x| x * 1e-40))),
+        ("huge", random_points(300, |p| p.map(|x| (x - 0.5) * 1e18))),
+        ("signed zeros", (0..200).map(|i| if i % 2 == 0 { [0.0; 3] } else { [-0.0; 3] }).collect()),
+        ("needle", random_points(500, |[x, y, z]| [x * 1e6, y * 1e-6, z * 1e-6])),
+    ]
+}
+
+/// Where to search: at photons, beside them, and far away.
+fn query_points(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let at = positions.iter().step_by((positions.len() / 20).max(1)).copied();
+    let beside = random_points(20, |p| {
+        let near = positions.get((p[0] * positions.len() as f32) as usize).copied().unwrap_or([0.0; 3]);
+        [near[0] + (p[1] - 0.5) * 0.1, near[1] + (p[2] - 0.5) * 0.1, near[2]]
+    });
+    at.chain(beside).chain([[1e9, -1e9, 0.0], [0.0; 3]]).collect()
+}
+
+#[test]
+fn the_kd_tree_finds_what_brute_force_finds() {
+    for (name, positions) in cases() {
+        let photons = photons(positions.iter().copied());
+        let tree = KdTree::build(&photons).unwrap();
+        let oracle = BruteForce::build(&photons).unwrap();
+        for k in [1, 2, 10, 100, 500, photons.len().max(1), photons.len() + 1] {
+            for max_dist in [0.0, 1e-7, 0.05, 1.0, f32::INFINITY] {
+                let (mut found, mut expected) = (Nearest::new(k, 0.0), Nearest::new(k, 0.0));
+                for point in query_points(&positions) {
+                    Search::new(k, max_dist).run(&oracle, point, &mut expected, &mut Blind);
+                    Search::new(k, max_dist).run(&tree, point, &mut found, &mut Blind);
+                    assert_eq!(found.sorted(), expected.sorted(), "{name}, k {k}, max {max_dist}, {point:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_start_radius_changes_reads_and_not_neighbours() {
+    for (name, positions) in cases() {
+        let photons = photons(positions.iter().copied());
+        let tree = KdTree::build(&photons).unwrap();
+        let mut found = Nearest::new(20, 0.0);
+        let mut expected = Nearest::new(20, 0.0);
+        for max_dist in [0.03, f32::INFINITY] {
+            let plain = Search::new(20, max_dist);
+            let fitted = plain.fit_start(&tree, &photons);
+            let searches = [fitted, Search { start: 1e-9, ..plain }, Search { start: 0.01, ..plain }];
+            for point in query_points(&positions) {
+                plain.run(&tree, point, &mut expected, &mut Blind);
+                for search in searches {
+                    search.run(&tree, point, &mut found, &mut Blind);
+                    assert_eq!(found.sorted(), expected.sorted(), "{name}, {search:?}, {point:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fitted_start_saves_reads() {
+    let positions = random_points(20_000, |[x, y, _]| [x, 0.0, y]);
+    let photons = photons(positions.iter().copied());
+    let tree = KdTree::build(&photons).unwrap();
+    let (plain, fitted) = (Search::new(100, f32::INFINITY), Search::new(100, f32::INFINITY).fit_start(&tree, &photons));
+    let mut found = Nearest::new(100, 0.0);
+    let (mut plain_reads, mut fitted_reads) = (0u64, 0u64);
+    for &point in positions.iter().step_by(100) {
+        plain.run(&tree, point, &mut found, &mut plain_reads);
+        fitted.run(&tree, point, &mut found, &mut fitted_reads);
+    }
+    assert!(fitted_reads < plain_reads, "{fitted_reads} {plain_reads}");
+}
+
+#[test]
+fn each_attempt_is_one_walk_from_the_root() {
+    let photons = photons(random_points(300, |p| p));
+    let tree = KdTree::build(&photons).unwrap();
+    let search = Search { start: 1e-3, ..Search::new(50, f32::INFINITY) };
+    let mut visits = Visits::default();
+    let attempts = search.run(&tree, [0.5; 3], &mut Nearest::new(50, 0.0), &mut visits);
+    let roots = visits.runs().flat_map(|(_, records)| records).filter(|&&record| record == 0).count();
+    assert!(attempts > 3 && roots == attempts as usize, "{attempts} attempts, {roots} roots");
+}
+
+#[test]
+fn every_photon_is_one_node_and_the_left_is_never_right() {
+    let photons = photons(cases().into_iter().flat_map(|(_, positions)| positions));
+    let tree = KdTree::build(&photons).unwrap();
+    let nodes: Vec<_> = tree.nodes().collect();
+    let ids: std::collections::BTreeSet<_> = nodes.iter().map(|&(_, id)| id).collect();
+    assert_eq!(ids.len(), photons.len());
+    for i in 2..=nodes.len() {
+        // Each node against all its ancestors: the side it is on is the side its coordinate says.
+        let mut below = i;
+        while below > 1 {
+            let (axis, parent) = nodes[below / 2 - 1];
+            let coordinate = |id: u32| photons[id as usize].position[axis];
+            let (own, split) = (coordinate(nodes[i - 1].1), coordinate(parent));
+            assert!(if below.is_multiple_of(2) { own <= split } else { own >= split });
+            below /= 2;
+        }
+    }
+}
+
+#[test]
+fn a_million_identical_photons_build_and_search() {
+    let photons = photons(vec![[0.5; 3]; 1_000_000]);
+    let tree = KdTree::build(&photons).unwrap();
+    let mut found = Nearest::new(100, f32::INFINITY);
+    tree.nearest([0.5, 0.5, 0.4], &mut found, &mut Blind);
+    let expected: Vec<_> = (0..100).map(|id| (found.bound(), id)).collect();
+    assert_eq!(found.sorted(), expected);
+}
+
+#[test]
+fn coordinates_that_cannot_be_compared_are_refused() {
+    let mut list = photons(random_points(10, |p| p));
+    list[7].position[1] = f32::NAN;
+    assert_eq!(KdTree::build(&list).err(), Some(BuildError::Coordinate(7)));
+    list[3].position[0] = 1e19;
+    assert_eq!(BruteForce::build(&list).err(), Some(BuildError::Coordinate(3)));
+}
