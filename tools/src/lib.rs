@@ -4,6 +4,9 @@
 
 pub mod cache;
 pub mod cli;
+pub mod gather;
+pub mod image;
+pub mod order;
 pub mod parallel;
 pub mod photon_map;
 pub mod random;
