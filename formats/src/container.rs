@@ -148,7 +148,9 @@ impl<R: Read> BlockReader<R> {
         }
     }
 
-    pub(crate) const fn damaged(&self, what: &'static str) -> Error {
+    /// The error that the block read last does not hold what it should.
+    #[must_use]
+    pub const fn damaged(&self, what: &'static str) -> Error {
         Error::Damaged { block: self.blocks, what }
     }
 

@@ -68,6 +68,21 @@ pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
     Some((records, tally))
 }
 
+/// The records of a block of a stream with this header, each of them fit for use.
+///
+/// # Errors
+/// What is wrong, for [`BlockReader::damaged`](crate::BlockReader::damaged).
+pub fn decode_checked<T: Record>(
+    block: &Block,
+    header: &Header,
+) -> std::result::Result<(Vec<T>, Tally), &'static str> {
+    let (records, tally) = decode_records::<T>(block).ok_or("a block does not hold its records")?;
+    match records.iter().find_map(|record| record.problem(header)) {
+        Some(what) => Err(what),
+        None => Ok((records, tally)),
+    }
+}
+
 fn tally<T: Record>(records: &[T]) -> Tally {
     let mut tally = Tally::default();
     records.iter().for_each(|record| tally.count(bytemuck::bytes_of(record)));

@@ -3,7 +3,7 @@
 use crate::container::{BlockMeta, BlockReader, BlockWriter, End, Header, StageReport};
 use crate::digest::Tally;
 use crate::error::Result;
-use crate::record::{BLOCK_RECORDS, Record, decode_records, encode_records};
+use crate::record::{BLOCK_RECORDS, Record, decode_checked, encode_records};
 use std::io::{Read, Write};
 use std::marker::PhantomData;
 
@@ -53,12 +53,8 @@ impl<T: Record, R: Read> RecordReader<T, R> {
             self.blocks.end(self.tally)?;
             return Ok(None);
         };
-        let (records, tally) =
-            decode_records::<T>(&block).ok_or_else(|| self.blocks.damaged("a block does not hold its records"))?;
-        let header = self.blocks.header();
-        if let Some(what) = records.iter().find_map(|record| record.problem(header)) {
-            return Err(self.blocks.damaged(what));
-        }
+        let decoded = decode_checked::<T>(&block, self.blocks.header());
+        let (records, tally) = decoded.map_err(|what| self.blocks.damaged(what))?;
         self.tally += tally;
         Ok(Some((block.meta, records)))
     }

@@ -1,0 +1,357 @@
+//! Answers gather queries from a photon map and writes the memory reads that this takes.
+
+use anyhow::{Context as _, bail, ensure};
+use clap::Parser;
+use pm_formats::trace::{BlockEncoder, Region, TraceWriter};
+use pm_formats::{Block, BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, StageReport, Tally, decode_checked};
+use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
+use pm_tools::gather::{Estimator, Film, Outcome, Overflow, RadianceEstimate};
+use pm_tools::image::{Format, Picture};
+use pm_tools::parallel::in_order;
+use pm_tools::photon_map::{BruteForce, KdTree, Nearest, PhotonMap, Search, StartRadius, Visits};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Answer gather queries from a photon map; write the memory reads as a trace, and the picture on request.
+///
+/// Each query asks for the k photons nearest to a point. The trace holds which records of the map each search read; the
+/// picture is the sum of the radiance estimates and does not depend on the order of the queries by a single bit.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+struct Args {
+    /// Photons to build the map from
+    #[arg(default_value = "map.pmp")]
+    photons: PathBuf,
+    /// Queries to answer; `-` is standard input
+    #[arg(default_value = "-")]
+    queries: PathBuf,
+    /// Structure of the photon map
+    #[arg(long, default_value = "kd")]
+    map: Map,
+    /// Number of nearest photons to gather
+    #[arg(short, default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    k: u32,
+    /// Largest distance at which a photon counts, in scene units: part of the answer
+    #[arg(long, value_name = "X|inf", default_value = "inf", value_parser = distance)]
+    max_dist: f32,
+    /// Radius a search starts with, doubled until it finds enough: changes the reads, not the answer. `auto` is the
+    /// radius that 99 % of the searches at 1,000 photons need
+    #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
+    start_radius: StartRadius,
+    /// How photons become radiance
+    #[arg(long, default_value = "unbiased")]
+    estimator: Estimator,
+    /// Picture to write, .exr (linear) or .png (preview); may be given more than once
+    #[arg(long, value_name = "FILE")]
+    image: Vec<PathBuf>,
+    /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
+    #[arg(long, value_name = "FILE")]
+    base: Option<PathBuf>,
+    /// Write no trace: for the picture, or for speed alone
+    #[arg(long, conflicts_with = "output")]
+    no_trace: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Map {
+    /// Left-balanced kd-tree, 20-byte nodes, Jensen's search
+    Kd,
+    /// No structure: every photon is read for every query; for checking
+    Brute,
+}
+
+impl Map {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Kd => "kd",
+            Self::Brute => "brute",
+        }
+    }
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
+  pm-queries --base direct.exr | pm-gather --base direct.exr --image out.exr --image out.png --no-trace -t 2
+  pm-gather map.pmp queries.pmq -k 50 --start-radius inf -o trace.pmt";
+
+fn main() -> ExitCode {
+    cli::main("pm-gather", run)
+}
+
+fn distance(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(x) if x >= 0.0 => Ok(x),
+        _ => Err("a distance of 0 or more, or `inf`, is expected".into()),
+    }
+}
+
+fn start_radius(text: &str) -> Result<StartRadius, String> {
+    match text {
+        "auto" => Ok(StartRadius::Auto),
+        "inf" => Ok(StartRadius::Unbounded),
+        _ => match text.parse::<f32>() {
+            Ok(x) if x > 0.0 => Ok(StartRadius::Fixed(x)),
+            _ => Err("a radius above 0, `inf` or `auto` is expected".into()),
+        },
+    }
+}
+
+fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    for image in &args.image {
+        Format::of(image)?;
+    }
+    if args.photons == Path::new("-") && args.queries == Path::new("-") {
+        return Err(cli::usage("photons and queries cannot both come from standard input; name a file for one of them"));
+    }
+    if args.base.is_some() && args.image.is_empty() {
+        return Err(cli::usage("--base is added to a picture: ask for one with --image"));
+    }
+    let photons = PhotonInput::read(&args.photons)?;
+    let queries = open_input(&args.queries)?.expect_kind(Kind::Queries).with_context(|| named(&args.queries))?;
+    if photons.header.bounds != queries.header().bounds {
+        args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
+    }
+    match args.map {
+        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons)?, &photons, queries),
+        Map::Brute => gather(&args, typed, &BruteForce::build(&photons.photons)?, &photons, queries),
+    }
+}
+
+/// A photon stream read as a whole.
+struct PhotonInput {
+    name: String,
+    header: Header,
+    photons: Vec<Photon>,
+    emitted_paths: u64,
+}
+
+impl PhotonInput {
+    fn read(path: &Path) -> anyhow::Result<Self> {
+        let name = named(path);
+        let mut input = RecordReader::<Photon, _>::from_blocks(open_input(path)?).context(name.clone())?;
+        let mut photons = vec![];
+        while let Some((_, block)) = input.next_block().with_context(|| name.clone())? {
+            photons.extend(block);
+        }
+        let Some(Number::Count(emitted_paths)) = input.end()?.measure("emitted_paths") else {
+            bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
+        };
+        Ok(Self { header: input.header().clone(), name, photons, emitted_paths })
+    }
+}
+
+/// What a block of queries became.
+struct Answered {
+    trace: Option<(Block, Tally)>,
+    tally: Tally,
+    contributions: Vec<(u32, [i128; 3])>,
+    counts: Counts,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    accesses: u64,
+    attempts: u64,
+    short: u64,
+    no_area: u64,
+}
+
+impl std::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        self.accesses += other.accesses;
+        self.attempts += other.attempts;
+        self.short += other.short;
+        self.no_area += other.no_area;
+    }
+}
+
+fn gather(
+    args: &Args,
+    typed: &Typed,
+    map: &impl PhotonMap,
+    photons: &PhotonInput,
+    queries: BlockReader<Input>,
+) -> anyhow::Result<()> {
+    let k = args.k as usize;
+    let search = match args.start_radius {
+        StartRadius::Unbounded => Search::new(k, args.max_dist),
+        StartRadius::Auto => Search::new(k, args.max_dist).fit_start(map, &photons.photons),
+        StartRadius::Fixed(start) => Search { start: start.min(args.max_dist), ..Search::new(k, args.max_dist) },
+    };
+    let query_header = queries.header().clone();
+    let mut header = query_header.clone();
+    header.regions = map.regions();
+    header.set_meaning("map", args.map.name());
+    header.set_meaning("k", args.k);
+    header.history.push(typed.step(None, vec![(photons.name.clone(), photons.header.history.clone())]));
+
+    let mut trace = match args.no_trace {
+        true => None,
+        false => Some(TraceWriter::new(args.output.create()?, &header)?),
+    };
+    let images: Vec<(&PathBuf, Output)> =
+        args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
+    let estimate = RadianceEstimate::new(
+        &photons.photons,
+        &query_header.materials,
+        photons.emitted_paths,
+        k,
+        args.max_dist,
+        args.estimator,
+    );
+    let pixels = usize::try_from(query_header.pixels())?;
+    let mut film = Film::new(if images.is_empty() { 0 } else { pixels }, film_scale(&estimate, &query_header));
+    let worker = Worker {
+        search,
+        map,
+        estimate: &estimate,
+        film: (!images.is_empty()).then(|| Film::new(0, film_scale(&estimate, &query_header))),
+        regions: trace.is_some().then_some(&header.regions),
+        header: &query_header,
+    };
+
+    let queries = std::cell::RefCell::new(queries);
+    let progress = Progress::new(query_header.expected_records, "queries", args.common.quiet);
+    let (mut tally, mut counts) = (Tally::default(), Counts::default());
+    let name = named(&args.queries);
+    in_order(
+        args.common.threads(),
+        || queries.borrow_mut().next_block().with_context(|| name.clone()),
+        |block| worker.answer(&block),
+        |answered: Result<Answered, Fault>| {
+            let answered = answered.map_err(|fault| match fault {
+                Fault::Damaged(what) => anyhow::Error::from(queries.borrow().damaged(what)).context(name.clone()),
+                Fault::TooBright(overflow) => overflow.into(),
+                Fault::Format(error) => error.into(),
+            })?;
+            if let (Some(trace), Some((block, tally))) = (&mut trace, &answered.trace) {
+                trace.write(block, *tally)?;
+            }
+            for (pixel, units) in answered.contributions {
+                film.add(pixel, units)?;
+            }
+            progress.add(answered.tally.records);
+            tally += answered.tally;
+            counts += answered.counts;
+            Ok(())
+        },
+    )?;
+    drop(progress);
+    let queries = queries.into_inner();
+    let end = queries.end(tally).context(name)?;
+
+    if counts.no_area > 0 {
+        args.common.remark(format!(
+            "{} of {} queries have all their photons at one point: nothing was added for them (a larger k helps)",
+            counts.no_area, tally.records
+        ));
+    }
+    write_images(args, &query_header, &film, images)?;
+    if let Some(trace) = trace {
+        trace.finish(stages(typed, end, photons, &search, counts, tally))?.commit()?;
+    }
+    Ok(())
+}
+
+/// Radiance that the photons' flux suggests for a scene of this size.
+fn film_scale(estimate: &RadianceEstimate<'_>, header: &Header) -> f64 {
+    let side = |axis: usize| f64::from(header.bounds.max[axis]) - f64::from(header.bounds.min[axis]);
+    let diagonal_squared = (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>();
+    estimate.total_flux().into_iter().fold(0.0, f64::max) / diagonal_squared
+}
+
+fn stages(typed: &Typed, end: &End, photons: &PhotonInput, search: &Search, counts: Counts, tally: Tally) -> Vec<StageReport> {
+    let mut stages = end.stages.clone();
+    stages.push(
+        StageReport::new(typed.program())
+            .with("photons", Number::Count(photons.photons.len() as u64))
+            .with("queries", Number::Count(tally.records))
+            .with("accesses", Number::Count(counts.accesses))
+            .with("attempts", Number::Count(counts.attempts))
+            .with("start_radius", Number::Real(f64::from(search.start)))
+            .with("short_lookups", Number::Count(counts.short))
+            .with("lookups_without_area", Number::Count(counts.no_area)),
+    );
+    stages
+}
+
+fn write_images(args: &Args, header: &Header, film: &Film, images: Vec<(&PathBuf, Output)>) -> anyhow::Result<()> {
+    if images.is_empty() {
+        return Ok(());
+    }
+    let mut picture = Picture { size: header.image, pixels: film.pixels() };
+    if let Some(base) = &args.base {
+        picture.add(&Picture::read_exr(base)?).with_context(|| base.display().to_string())?;
+    }
+    let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite());
+    let odd = picture.pixels.iter().filter(|pixel| !finite(pixel)).count();
+    ensure!(odd == 0, "{odd} pixels are not finite; is the base image damaged?");
+    // Nothing that differs between two orders of the same work: equal pictures are equal files.
+    let attributes = [("photonmap.k", args.k.to_string()), ("photonmap.estimator", format!("{:?}", args.estimator))];
+    for (path, mut output) in images {
+        if Format::of(path)? == Format::Png && picture.clipped() > 0.0 {
+            args.common.remark(format!("{}: {:.1} % of the pixels clipped", path.display(), picture.clipped() * 100.0));
+        }
+        picture.write(path, &mut output, &attributes)?;
+        output.commit()?;
+    }
+    Ok(())
+}
+
+/// Why a block could not be answered.
+enum Fault {
+    Damaged(&'static str),
+    TooBright(Overflow),
+    Format(pm_formats::Error),
+}
+
+/// What a thread needs to answer queries.
+struct Worker<'a, M> {
+    search: Search,
+    map: &'a M,
+    estimate: &'a RadianceEstimate<'a>,
+    /// An empty film that knows the unit, if a picture is wanted.
+    film: Option<Film>,
+    /// Regions of the trace, if one is wanted.
+    regions: Option<&'a Vec<Region>>,
+    header: &'a Header,
+}
+
+impl<M: PhotonMap> Worker<'_, M> {
+    fn answer(&self, block: &Block) -> Result<Answered, Fault> {
+        let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
+        let mut found = Nearest::new(self.search.k, 0.0);
+        let mut visits = Visits::default();
+        let mut scratch = vec![];
+        let mut encoder = self.regions.map(|regions| BlockEncoder::new(regions));
+        let mut contributions = Vec::with_capacity(if self.film.is_some() { queries.len() } else { 0 });
+        let mut counts = Counts::default();
+        for query in &queries {
+            visits.clear();
+            counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
+            counts.accesses += visits.len() as u64;
+            counts.short += u64::from(!found.is_full());
+            if let Some(encoder) = &mut encoder {
+                encoder.begin(&[query.pixel]);
+                visits.runs().for_each(|(region, records)| encoder.records(region, records));
+                encoder.end();
+            }
+            if let Some(film) = &self.film {
+                match self.estimate.contribution(query, &found, &mut scratch) {
+                    Outcome::Radiance(radiance) => {
+                        let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
+                        contributions.push((query.pixel, units));
+                    }
+                    Outcome::NoArea => counts.no_area += 1,
+                }
+            }
+        }
+        let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
+        Ok(Answered { trace, tally, contributions, counts })
+    }
+}
