@@ -1,3 +1,5 @@
 //! x
 pub mod cache;
+pub mod report;
 pub mod scene;
+pub mod size;
