@@ -1,1 +1,38 @@
-//! x
+//! Simulated caches: what a trace of accesses costs in memory traffic.
+//!
+//! A [`Simulation`] listens to a trace and runs any number of [`CacheConfig`]s in one reading of it; each becomes a
+//! [`Row`] of exact counts. How they count:
+//!
+//! * A **record** access is one access of the trace: one record, whole, wherever it lies. A **line access** is the part of
+//!   it in one line. A record that spans two lines is two line accesses, each a hit or a miss of its own. A record of
+//!   length zero (a trace of bare addresses) touches the line at its address.
+//! * The **line number** is the byte address, region base plus offset, divided by the line size. Lines are attributed to
+//!   the region of the access; should lines longer than a page make two regions share one, it is the same line to both.
+//! * Every miss **fetches** the whole line, misses of writes too, also of a write that covers the line in full
+//!   (write-allocate without a special case). A read-modify-write is one line access that reads and dirties.
+//! * Caches are **write-back**: a line written while it is cached costs one write-back however often it is written, when it
+//!   leaves, or at the end of the trace. It is charged when the line turns dirty, to the write that made it so, since
+//!   leaving is then certain. Hence without warm-up the count is that of dirty evictions and of dirty lines left at the end.
+//! * **Warm-up** blocks change what is cached and count nowhere: not their accesses, not their misses, not their writes.
+//! * **Compulsory** fetches are lines touched for the first time in the whole trace, by an access that counts. A line
+//!   first touched during warm-up is nobody's compulsory fetch.
+//!
+//! To add a policy of sets and ways, write a [`replacement`] of it; for anything else, a [`model::CacheModel`]; either is
+//! one file, a name in [`Policy`] and a line in [`simulation`].
+
+mod config;
+mod lines;
+mod lru_stack;
+mod model;
+mod replacement;
+mod row;
+mod set_associative;
+mod simulation;
+mod uncached;
+
+#[cfg(test)]
+mod tests;
+
+pub use config::{CacheConfig, ConfigError, Policy, Ways};
+pub use row::{RecordCounts, Row};
+pub use simulation::{Simulation, SimulationError};

@@ -10,4 +10,6 @@ pub mod order;
 pub mod parallel;
 pub mod photon_map;
 pub mod random;
+pub mod report;
 pub mod scene;
+pub mod size;

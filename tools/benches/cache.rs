@@ -1,0 +1,276 @@
+//! How fast are the simulated caches, as ratios to the plainest loop that does the job?
+//!
+//! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to place, and a
+//! doubly linked list of places. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
+//! interleaved and medians compared, so that a busy machine slows both alike. Both must count the same.
+//!
+//! The trace is that of k-nearest-neighbour searches in an implicit kd-tree, for queries in no order and in an order that
+//! goes through space cell by cell. `cargo bench -p pm-tools --bench cache [-- QUERIES [ROUNDS]]`.
+#![allow(clippy::print_stdout)]
+
+use std::{hint::black_box, time::Instant};
+
+use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
+use pm_tools::cache::{CacheConfig, Simulation};
+
+const PHOTONS: usize = 400_000;
+const K: usize = 100;
+/// The paper's cache: 128 KB in lines of 128 bytes.
+const LINES: usize = 1024;
+/// Six 20-byte photons in a line, none across two, in records of 128 / 6 bytes would not be whole: here each line holds
+/// six records and eight bytes of nothing.
+const PER_LINE: usize = 6;
+
+fn main() {
+    let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
+    let queries = numbers.first().copied().unwrap_or(20_000);
+    let rounds = numbers.get(1).copied().unwrap_or(7);
+    let tree = Tree::new(PHOTONS);
+    for (name, order) in [("scattered", Order::Scattered), ("cell by cell", Order::Cells)] {
+        let nodes = tree.trace(queries, order);
+        let blocks: Vec<u32> = nodes.iter().map(|n| n / PER_LINE as u32).collect();
+        let misses = naive(&blocks, LINES);
+        println!(
+            "{name}: {} accesses, {misses} misses of {LINES} lines ({:.2} %)",
+            blocks.len(),
+            100.0 * misses as f64 / blocks.len() as f64
+        );
+        measure(&nodes, &blocks, rounds);
+    }
+}
+
+fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
+    let one = ["128K,full,128,lru"];
+    let ten: Vec<String> = (0..10).map(|i| format!("{},full,128,lru", 8192_u64 << i)).collect();
+    let ten: Vec<&str> = ten.iter().map(String::as_str).collect();
+    let contestants: Vec<(&str, Box<dyn Fn() -> u64>)> = vec![
+        ("yardstick: table and list", Box::new(|| naive(blocks, LINES))),
+        ("128K,full,128,lru", Box::new(|| simulate(nodes, &one))),
+        ("... packed, 1 in 8 spans lines", Box::new(|| simulate_packed(nodes, &one))),
+        ("128K,8,128,lru", Box::new(|| simulate(nodes, &["128K,8,128,lru"]))),
+        ("3 sizes, one stack", Box::new(|| simulate(nodes, &ten[3..6]))),
+        ("3 sizes, one by one", Box::new(|| ten[3..6].iter().map(|c| simulate(nodes, &[*c])).sum())),
+        ("10 sizes, one stack", Box::new(|| simulate(nodes, &ten))),
+        ("10 sizes, one by one", Box::new(|| ten.iter().map(|c| simulate(nodes, &[*c])).sum())),
+        ("3 lines: 64, 128, 256", Box::new(|| simulate(nodes, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
+        ("no cache", Box::new(|| simulate(nodes, &["none"]))),
+    ];
+    let mut times = vec![Vec::new(); contestants.len()];
+    let mut results = vec![0; contestants.len()];
+    for _ in 0..rounds {
+        for (i, (_, run)) in contestants.iter().enumerate() {
+            let start = Instant::now();
+            results[i] = black_box(run());
+            times[i].push(start.elapsed().as_secs_f64());
+        }
+    }
+    assert_eq!(results[0], results[1], "the list and the simulation count the same misses");
+    assert_eq!((results[4], results[6]), (results[5], results[7]), "sizes together and apart count the same");
+    let median = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let yardstick = median(&mut times[0]);
+    for ((name, _), times) in contestants.iter().zip(&mut times) {
+        let time = median(times);
+        println!("  {name:32} {:7.1} M accesses/s  {:5.2}", blocks.len() as f64 / time / 1e6, yardstick / time);
+    }
+}
+
+fn region(size: usize) -> Vec<Region> {
+    lay_out([("photons".to_owned(), size as u64, 20, Coding::Records)])
+}
+
+/// Fetches of all caches, with records that never cross a line.
+fn simulate(nodes: &[u32], caches: &[&str]) -> u64 {
+    run(nodes, caches, PHOTONS.div_ceil(PER_LINE) * 128, |node| {
+        u64::from(node / PER_LINE as u32) * 128 + u64::from(node % PER_LINE as u32) * 20
+    })
+}
+
+/// The same with records one after another.
+fn simulate_packed(nodes: &[u32], caches: &[&str]) -> u64 {
+    run(nodes, caches, PHOTONS * 20, |node| u64::from(node) * 20)
+}
+
+fn run(nodes: &[u32], caches: &[&str], size: usize, offset: impl Fn(u32) -> u64) -> u64 {
+    let configs: Vec<CacheConfig> = caches.iter().map(|c| c.parse().unwrap()).collect();
+    let mut simulation = Simulation::new(&region(size), &configs).unwrap();
+    simulation.search(&[0]);
+    for &node in nodes {
+        simulation.access(Access::read(0, offset(node), 20));
+    }
+    simulation.finish().iter().map(|row| row.fetches).sum()
+}
+
+/// The yardstick.
+fn naive(blocks: &[u32], capacity: usize) -> u64 {
+    const NONE: u32 = u32::MAX;
+    #[derive(Clone, Copy)]
+    struct Place {
+        block: u32,
+        newer: u32,
+        older: u32,
+    }
+    let mut table = vec![NONE; blocks.iter().max().map_or(0, |&b| b as usize + 1)];
+    let mut places: Vec<Place> = Vec::with_capacity(capacity);
+    let (mut newest, mut oldest, mut misses) = (NONE, NONE, 0);
+    for &block in blocks {
+        let mut place = table[block as usize];
+        if place == newest && place != NONE {
+            continue;
+        }
+        if place != NONE {
+            let Place { newer, older, .. } = places[place as usize];
+            places[newer as usize].older = older;
+            if older == NONE {
+                oldest = newer;
+            } else {
+                places[older as usize].newer = newer;
+            }
+        } else {
+            misses += 1;
+            if places.len() < capacity {
+                place = places.len() as u32;
+                places.push(Place { block, newer: NONE, older: NONE });
+            } else {
+                place = oldest;
+                let old = places[place as usize];
+                table[old.block as usize] = NONE;
+                oldest = old.newer;
+                match oldest {
+                    NONE => newest = NONE,
+                    o => places[o as usize].older = NONE,
+                }
+                places[place as usize].block = block;
+            }
+            table[block as usize] = place;
+        }
+        places[place as usize].newer = NONE;
+        places[place as usize].older = newest;
+        match newest {
+            NONE => oldest = place,
+            n => places[n as usize].newer = place,
+        }
+        newest = place;
+    }
+    misses
+}
+
+enum Order {
+    Scattered,
+    Cells,
+}
+
+/// A balanced kd-tree in heap order: node i has children 2i and 2i + 1, the root is 1.
+struct Tree {
+    /// Points by node; the place before the root is unused.
+    points: Vec<[f32; 3]>,
+    axes: Vec<u8>,
+}
+
+impl Tree {
+    /// Points on the walls and on a ball of a unit room, as photons lie.
+    fn new(n: usize) -> Self {
+        let mut random = Random(7);
+        let mut points: Vec<[f32; 3]> = (0..n).map(|_| random.surface_point()).collect();
+        let mut tree = Self { points: vec![[0.0; 3]; n + 1], axes: vec![0; n + 1] };
+        tree.build(1, &mut points);
+        tree
+    }
+
+    fn build(&mut self, node: usize, points: &mut [[f32; 3]]) {
+        if points.is_empty() {
+            return;
+        }
+        let extent = |axis: usize| {
+            let (min, max) = points.iter().fold((f32::MAX, f32::MIN), |(a, b), p| (a.min(p[axis]), b.max(p[axis])));
+            max - min
+        };
+        let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+        let left = left_size(points.len());
+        points.select_nth_unstable_by(left, |a, b| a[axis].total_cmp(&b[axis]));
+        (self.points[node], self.axes[node]) = (points[left], axis as u8);
+        let (low, high) = points.split_at_mut(left);
+        self.build(2 * node, low);
+        self.build(2 * node + 1, &mut high[1..]);
+    }
+
+    /// The nodes that searches visit (from 0), in the order they do.
+    fn trace(&self, queries: usize, order: Order) -> Vec<u32> {
+        let mut random = Random(11);
+        let mut points: Vec<[f32; 3]> = (0..queries).map(|_| random.surface_point()).collect();
+        if matches!(order, Order::Cells) {
+            points.sort_by_key(morton);
+        }
+        let mut trace = Vec::new();
+        for p in points {
+            let mut nearest = Vec::with_capacity(K + 1);
+            self.search(1, p, &mut nearest, &mut trace);
+        }
+        trace
+    }
+
+    /// Jensen's search; `nearest` is sorted by distance.
+    fn search(&self, node: usize, p: [f32; 3], nearest: &mut Vec<f32>, trace: &mut Vec<u32>) {
+        if node >= self.points.len() {
+            return;
+        }
+        trace.push(node as u32 - 1);
+        let q = self.points[node];
+        let axis = self.axes[node] as usize;
+        let plane = p[axis] - q[axis];
+        let near = 2 * node + usize::from(plane >= 0.0);
+        self.search(near, p, nearest, trace);
+        let radius = |nearest: &Vec<f32>| if nearest.len() < K { f32::INFINITY } else { nearest[K - 1] };
+        let d: f32 = (0..3).map(|i| (p[i] - q[i]) * (p[i] - q[i])).sum();
+        if d < radius(nearest) {
+            nearest.insert(nearest.partition_point(|&x| x < d), d);
+            nearest.truncate(K);
+        }
+        if plane * plane < radius(nearest) {
+            self.search(near ^ 1, p, nearest, trace);
+        }
+    }
+}
+
+/// Nodes left of the root in a complete tree of `n`.
+fn left_size(n: usize) -> usize {
+    let full = 1 << n.ilog2();
+    let (half, last_row) = (full / 2, n + 1 - full);
+    half.max(1) - 1 + last_row.min(half)
+}
+
+/// Bits of the three coordinates interleaved.
+fn morton(p: &[f32; 3]) -> u64 {
+    (0..16).flat_map(|bit| (0..3).map(move |axis| (bit, axis))).fold(0, |key, (bit, axis)| {
+        let cell = (p[axis] * 65535.0) as u64;
+        key << 1 | (cell >> (15 - bit) & 1)
+    })
+}
+
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1 << 24) as f32
+    }
+
+    /// Five walls of the unit cube and a ball in it.
+    fn surface_point(&mut self) -> [f32; 3] {
+        let (u, v) = (self.unit(), self.unit());
+        match (self.unit() * 5.5) as u32 {
+            0 => [u, v, 0.0],
+            1 => [u, v, 1.0],
+            2 => [0.0, u, v],
+            3 => [1.0, u, v],
+            4 => [u, 0.0, v],
+            _ => {
+                let (z, turn) = (2.0 * u - 1.0, std::f32::consts::TAU * v);
+                let r = (1.0 - z * z).sqrt();
+                [0.6 + 0.2 * r * turn.cos(), 0.3 + 0.2 * r * turn.sin(), 0.5 + 0.2 * z]
+            }
+        }
+    }
+}

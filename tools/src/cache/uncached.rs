@@ -1,0 +1,34 @@
+//! No cache: only the distinct lines are left to count.
+
+use super::{
+    lines::{LineChunk, LineSpace},
+    model::{CacheModel, Tally},
+};
+
+/// Counts lines touched for the first time. Fetches are counted by the record, outside of the model.
+pub(super) struct Uncached {
+    touched: Vec<bool>,
+    compulsory: u64,
+}
+
+impl Uncached {
+    pub(super) fn new(space: &LineSpace) -> Self {
+        Self { touched: vec![false; space.slots() as usize], compulsory: 0 }
+    }
+}
+
+impl CacheModel for Uncached {
+    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool) {
+        let mut first = 0;
+        for &slot in chunk.slots() {
+            first += u64::from(!std::mem::replace(&mut self.touched[slot as usize], true));
+        }
+        if counted {
+            self.compulsory += first;
+        }
+    }
+
+    fn finish(self: Box<Self>) -> Vec<Tally> {
+        vec![Tally { compulsory: self.compulsory, ..Tally::default() }]
+    }
+}
