@@ -18,7 +18,6 @@ pub(super) fn fit(bounds: &Bounds, overrides: &CameraOverrides) -> Result<Camera
     let away = half.z + MARGIN * (half.y / half_height).max(half.x / half_width);
     // A scene may be flat and seen edge-on: then its depth sets the distance.
     let away = if away.is_finite() && away > half.z { away } else { 2.0 * half.z + 1.0 };
-    // The nearer the scene is to a point, the more digits of its place the eye would lose.
     let eye = centre + DVec3::Z * away;
     let view = View { eye: eye.to_array(), look_at: centre.to_array(), up: UP, vfov, size };
     let mut choice = choose(view, "fitted to the scene", overrides)?;
