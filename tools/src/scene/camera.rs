@@ -208,8 +208,8 @@ mod tests {
         Camera::new(view, "test").unwrap_err().to_string()
     }
 
-    /// Does the light of the Cornell box lie where Mitsuba 3.9.1 has it? Its image has the light's far edge at row 39.885,
-    /// the near one at 30.944 (each +- 0.005) and there between columns 103.73 and 152.27.
+    /// Does the light of the Cornell box lie where Mitsuba 3.9.1 has it? Its 256 x 256 image has the light's far edge at
+    /// row 39.885, the near one at 30.944 (each +- 0.005) and that between columns 103.73 and 152.27.
     #[test]
     fn light_lies_where_another_renderer_has_it() {
         let camera = Camera::new(VIEW, "test").unwrap();

@@ -44,7 +44,7 @@ pub(crate) fn shape(corners: [Vec3; 3]) -> Shape {
     }
     let [a, b, c] = corners.map(|p| p.as_dvec3());
     let longest_squared = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-    // Not `<=`: must also catch what is not a number.
+    // Asked this way round so that what is not a number counts as no area.
     if cross(corners).length() > FLATTEST * longest_squared { Shape::Sound } else { Shape::ZeroArea }
 }
 
