@@ -1,0 +1,256 @@
+//! The pass over an OBJ file before tobj reads it, and the reading: errors get a line, traps are disarmed.
+
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::error::{Place, SceneError};
+use super::mtl::{self, CleanMtl};
+use super::statements::{Statement, number, statements};
+use super::warnings::Warnings;
+
+/// How files are read: from disk, or from what is built into the program.
+pub(crate) type ReadFile<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
+
+/// Squares of larger coordinates, and so distances, overflow single precision.
+const FARTHEST: f32 = 1e18;
+
+/// An OBJ file as tobj read it.
+#[derive(Debug)]
+pub(crate) struct ParsedObj {
+    /// Meshes in the order of the file; in each, either every vertex has a normal or none has.
+    pub(crate) models: Vec<tobj::Model>,
+    /// The line of every face, in the order of the models.
+    pub(crate) face_lines: Vec<u32>,
+    /// Every material of every library.
+    pub(crate) materials: Vec<tobj::Material>,
+    /// Where each material is defined.
+    pub(crate) places: HashMap<String, Place>,
+}
+
+/// Reads one OBJ file and the material libraries it names.
+///
+/// # Errors
+///
+/// Whatever [`SceneError`] says of reading and of statements.
+pub(crate) fn parse(file: &Path, read: ReadFile<'_>, warnings: &mut Warnings) -> Result<ParsedObj, SceneError> {
+    let bytes = read(file).map_err(|source| SceneError::Read { path: file.to_path_buf(), source })?;
+    let statements = statements(file, &bytes)?;
+    let mut cleaner =
+        Cleaner { file, warnings, text: String::new(), positions: 0, normals: Vec::new(), face_lines: vec![] };
+    let libraries = cleaner.libraries(&statements, read)?;
+    let places: HashMap<_, _> = libraries.iter().flat_map(|library| library.places.clone()).collect();
+    let mut smooth = false;
+    for statement in &statements {
+        cleaner.statement(statement, &places, &mut smooth)?;
+    }
+    let Cleaner { text, face_lines, .. } = cleaner;
+
+    let options = tobj::LoadOptions { single_index: true, ..Default::default() };
+    let library = |name: &Path| {
+        let index: Option<usize> = name.to_str().and_then(|name| name.parse().ok());
+        let clean = index.and_then(|i| libraries.get(i)).ok_or(tobj::LoadError::OpenFileFailed)?;
+        tobj::load_mtl_buf(&mut clean.text.as_bytes())
+    };
+    // The pass above leaves tobj nothing to complain of; if it does all the same, say so without a line.
+    let refused = |error: tobj::LoadError| Place::new(file, 1).error(format!("somewhere in this file: {error}"));
+    let (models, materials) = tobj::load_obj_buf(&mut text.as_bytes(), &options, library).map_err(refused)?;
+    Ok(ParsedObj { models, face_lines, materials: materials.map_err(refused)?, places })
+}
+
+struct Cleaner<'a> {
+    file: &'a Path,
+    warnings: &'a mut Warnings,
+    text: String,
+    positions: usize,
+    /// For each `vn`, whether it has a direction.
+    normals: Vec<bool>,
+    face_lines: Vec<u32>,
+}
+
+impl Cleaner<'_> {
+    /// Reads the libraries of all `mtllib` statements, each once, and names them to tobj by their number.
+    /// They go first, so that a `usemtl` above its `mtllib` works.
+    fn libraries(&mut self, statements: &[Statement<'_>], read: ReadFile<'_>) -> Result<Vec<CleanMtl>, SceneError> {
+        let mut seen: Vec<PathBuf> = Vec::new();
+        let mut out = Vec::new();
+        for statement in statements.iter().filter(|s| s.keyword() == "mtllib") {
+            let place = Place::new(self.file, statement.line);
+            for (path, bytes) in self.library_files(statement, &place, read)? {
+                if seen.contains(&path) {
+                    continue;
+                }
+                self.line("mtllib", &out.len().to_string());
+                out.push(mtl::clean(&path, &bytes, self.warnings)?);
+                seen.push(path);
+            }
+        }
+        Ok(out)
+    }
+
+    /// `mtllib` takes a list of names, but names have spaces too: the whole rest counts if there is such a file.
+    fn library_files(
+        &self,
+        statement: &Statement<'_>,
+        place: &Place,
+        read: ReadFile<'_>,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, SceneError> {
+        let beside = |name: &str| self.file.with_file_name("").join(name.replace('\\', "/"));
+        let open = |name: &str| {
+            let path = beside(name);
+            let missing = |source| SceneError::MissingMtl { place: place.clone(), name: name.to_owned(), source };
+            read(&path).map(|bytes| (path, bytes)).map_err(missing)
+        };
+        let rest = statement.rest();
+        if rest.is_empty() {
+            return Err(place.error("mtllib without a name; give the MTL file's"));
+        }
+        match open(rest) {
+            Ok(one) => Ok(vec![one]),
+            Err(error) if statement.words().count() < 2 => Err(error),
+            Err(_) => statement.words().map(open).collect(),
+        }
+    }
+
+    fn statement(
+        &mut self,
+        statement: &Statement<'_>,
+        materials: &HashMap<String, Place>,
+        smooth: &mut bool,
+    ) -> Result<(), SceneError> {
+        let place = Place::new(self.file, statement.line);
+        let keyword = statement.keyword();
+        match keyword {
+            "v" => self.position(statement, &place)?,
+            "vn" => self.normal(statement, &place)?,
+            "f" | "fo" => self.face(statement, &place, smooth)?,
+            "usemtl" => {
+                let name = statement.rest();
+                if name.is_empty() {
+                    return Err(place.error("usemtl without a name; give the material's"));
+                }
+                if !materials.contains_key(name) {
+                    self.warnings.once(&format!("usemtl {name}"), || {
+                        format!("{place}: material {name:?} is in no library; grey 0.5 takes its place")
+                    });
+                }
+                self.line("usemtl", name);
+            }
+            "mtllib" | "vt" | "o" | "g" | "s" => {} // libraries are read already; the rest changes no light
+            "l" | "p" => {
+                self.warnings.once("obj l p", || format!("{place}: points and lines have no area and are ignored"));
+            }
+            _ => self.warnings.once(&format!("obj {keyword}"), || format!("{place}: {keyword} is ignored")),
+        }
+        Ok(())
+    }
+
+    fn position(&mut self, statement: &Statement<'_>, place: &Place) -> Result<(), SceneError> {
+        let numbers = statement.numbers().map_err(|what| place.error(format!("v: {what}")))?;
+        let (xyz, w) = match numbers[..] {
+            [x, y, z] => ([x, y, z], 1.0),
+            [x, y, z, w] => ([x, y, z], w),
+            [x, y, z, _, _, _, ..] => {
+                self.warnings.once("obj vertex colours", || format!("{place}: colours of vertices are ignored"));
+                ([x, y, z], 1.0)
+            }
+            _ => return Err(place.error(format!("v with {} numbers; it takes x y z", numbers.len()))),
+        };
+        let [x, y, z] = xyz.map(|c| c / w);
+        if ![x, y, z].iter().all(|c| c.abs() <= FARTHEST) {
+            return Err(place.error("a vertex farther than 1e18 from the origin; scale the scene down"));
+        }
+        self.positions += 1;
+        self.line("v", &format!("{x} {y} {z}"));
+        Ok(())
+    }
+
+    /// A normal without a direction is kept in its place, so that the numbers of the others hold, but not used.
+    fn normal(&mut self, statement: &Statement<'_>, place: &Place) -> Result<(), SceneError> {
+        let words: Vec<&str> = statement.words().collect();
+        if words.len() < 3 {
+            return Err(place.error(format!("vn with {} numbers; it takes x y z", words.len())));
+        }
+        let parsed: Result<Vec<f32>, _> = words[..3].iter().map(|word| word.parse::<f32>()).collect();
+        let xyz = parsed.map_err(|_| place.error(format!("vn: {:?} are not three numbers", words[..3].join(" "))))?;
+        let length_squared: f64 = xyz.iter().map(|&c| f64::from(c) * f64::from(c)).sum();
+        let usable = length_squared > 0.0 && length_squared.is_finite();
+        if usable {
+            self.line("vn", &format!("{} {} {}", xyz[0], xyz[1], xyz[2]));
+        } else {
+            let what = "a normal without a direction; its faces are shaded flat";
+            self.warnings.once("obj vn", || format!("{place}: {what}"));
+            self.line("vn", "0 0 0");
+        }
+        self.normals.push(usable);
+        Ok(())
+    }
+
+    fn face(&mut self, statement: &Statement<'_>, place: &Place, smooth: &mut bool) -> Result<(), SceneError> {
+        let words = statement.words();
+        let corners: Vec<Corner> = words.map(|word| self.corner(word, place)).collect::<Result<_, _>>()?;
+        if corners.len() < 3 {
+            self.warnings.once("obj small face", || {
+                format!("{place}: a face of {} corners has no area and is ignored", corners.len())
+            });
+            return Ok(());
+        }
+        let normals: Option<Vec<usize>> = corners.iter().map(|c| c.normal.filter(|&n| self.normals[n - 1])).collect();
+        // tobj numbers a mesh's normals as it meets them: a mesh with some missing would get them mixed up.
+        if normals.is_some() != *smooth {
+            *smooth = normals.is_some();
+            self.line("o", if *smooth { "smooth" } else { "flat" });
+        }
+        let mut line = String::new();
+        for (i, corner) in corners.iter().enumerate() {
+            match &normals {
+                Some(normals) => write!(line, " {}//{}", corner.position, normals[i]),
+                None => write!(line, " {}", corner.position),
+            }
+            .expect("writing to a string");
+        }
+        self.line("f", &line);
+        self.face_lines.push(statement.line);
+        Ok(())
+    }
+
+    /// One corner, `v`, `v/vt`, `v//vn` or `v/vt/vn`, with relative numbers made absolute.
+    fn corner(&self, word: &str, place: &Place) -> Result<Corner, SceneError> {
+        let mut parts = word.split('/');
+        let position = parts.next().unwrap_or("");
+        parts.next(); // texture coordinates: no textures here
+        let normal = parts.next().filter(|part| !part.is_empty());
+        if parts.next().is_some() {
+            return Err(place.error(format!("f: {word:?} has more than three indices; it takes v/vt/vn")));
+        }
+        Ok(Corner {
+            position: absolute(position, self.positions, "vertex", place)?,
+            normal: normal.map(|n| absolute(n, self.normals.len(), "normal", place)).transpose()?,
+        })
+    }
+
+    fn line(&mut self, keyword: &str, rest: &str) {
+        writeln!(self.text, "{keyword} {rest}").expect("writing to a string");
+    }
+}
+
+struct Corner {
+    position: usize,
+    normal: Option<usize>,
+}
+
+/// An index counted from 1 of `count` things so far; negative ones count back from the last.
+fn absolute(word: &str, count: usize, what: &str, place: &Place) -> Result<usize, SceneError> {
+    let index: i64 = match word.parse() {
+        Ok(index) => index,
+        Err(_) if number(word).is_ok() => return Err(place.error(format!("f: index {word:?} is not a whole number"))),
+        Err(_) => return Err(place.error(format!("f: {word:?} is not an index; it takes v, v/vt, v//vn or v/vt/vn"))),
+    };
+    let count = count as i64;
+    let absolute = if index < 0 { index.checked_add(count).map_or(0, |i| i + 1) } else { index };
+    if (1..=count).contains(&absolute) {
+        return Ok(absolute as usize);
+    }
+    Err(place.error(format!("f: {what} {index} does not exist; {count} are defined above this line, counted from 1")))
+}
