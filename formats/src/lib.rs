@@ -40,7 +40,7 @@ pub use digest::{Digest, Tally};
 pub use error::{Error, Result};
 pub use history::{Step, as_commands};
 pub use record::{
-    BLOCK_RECORDS, Photon, Query, Record, decode_checked, decode_records, encode_records, pack_direction, pack_rgbe, unpack_direction,
-    unpack_rgbe,
+    BLOCK_RECORDS, Photon, Query, Record, decode_checked, decode_records, encode_records, pack_direction, pack_rgbe,
+    unpack_direction, unpack_rgbe,
 };
 pub use stream::{RecordReader, RecordWriter};

@@ -72,10 +72,7 @@ pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
 ///
 /// # Errors
 /// What is wrong, for [`BlockReader::damaged`](crate::BlockReader::damaged).
-pub fn decode_checked<T: Record>(
-    block: &Block,
-    header: &Header,
-) -> std::result::Result<(Vec<T>, Tally), &'static str> {
+pub fn decode_checked<T: Record>(block: &Block, header: &Header) -> std::result::Result<(Vec<T>, Tally), &'static str> {
     let (records, tally) = decode_records::<T>(block).ok_or("a block does not hold its records")?;
     match records.iter().find_map(|record| record.problem(header)) {
         Some(what) => Err(what),

@@ -4,6 +4,7 @@
 
 pub mod cache;
 pub mod cli;
+pub mod film;
 pub mod gather;
 pub mod image;
 pub mod order;
@@ -13,3 +14,4 @@ pub mod random;
 pub mod report;
 pub mod scene;
 pub mod size;
+pub mod transport;

@@ -3,9 +3,12 @@
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
 use pm_formats::trace::{BlockEncoder, Region, TraceWriter};
-use pm_formats::{Block, BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, StageReport, Tally, decode_checked};
+use pm_formats::{
+    Block, BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, StageReport, Tally, decode_checked,
+};
 use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
-use pm_tools::gather::{Estimator, Film, Outcome, Overflow, RadianceEstimate};
+use pm_tools::film::{Film, Overflow};
+use pm_tools::gather::{Estimator, Outcome, RadianceEstimate};
 use pm_tools::image::{Format, Picture};
 use pm_tools::parallel::in_order;
 use pm_tools::photon_map::{BruteForce, KdTree, Nearest, PhotonMap, Search, StartRadius, Visits};
@@ -106,7 +109,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         Format::of(image)?;
     }
     if args.photons == Path::new("-") && args.queries == Path::new("-") {
-        return Err(cli::usage("photons and queries cannot both come from standard input; name a file for one of them"));
+        return Err(cli::usage(
+            "photons and queries cannot both come from standard input; name a file for one of them",
+        ));
     }
     if args.base.is_some() && args.image.is_empty() {
         return Err(cli::usage("--base is added to a picture: ask for one with --image"));
@@ -265,7 +270,14 @@ fn film_scale(estimate: &RadianceEstimate<'_>, header: &Header) -> f64 {
     estimate.total_flux().into_iter().fold(0.0, f64::max) / diagonal_squared
 }
 
-fn stages(typed: &Typed, end: &End, photons: &PhotonInput, search: &Search, counts: Counts, tally: Tally) -> Vec<StageReport> {
+fn stages(
+    typed: &Typed,
+    end: &End,
+    photons: &PhotonInput,
+    search: &Search,
+    counts: Counts,
+    tally: Tally,
+) -> Vec<StageReport> {
     let mut stages = end.stages.clone();
     stages.push(
         StageReport::new(typed.program())

@@ -2,11 +2,11 @@
 
 use anyhow::Context as _;
 use clap::Parser;
+use indicatif::BinaryBytes;
 use pm_formats::{BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport};
 use pm_tools::cli::{self, Common, OutputArgs, Progress, Typed, named, open_input};
 use pm_tools::order::{Per, Reorder, Sorted, hilbert_keys};
 use pm_tools::random::Random;
-use pm_tools::size::Size;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -71,8 +71,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         // A record and its sorting key each.
         let bytes = records * (size_of::<Query>() + size_of::<u64>()) as u64;
         if bytes > WORTH_SAYING {
-            let size = Size(bytes).rounded();
-            args.common.remark(format!("up to {records} queries will be held in {size} of memory to order the whole image"));
+            let size = BinaryBytes(bytes);
+            args.common
+                .remark(format!("up to {records} queries will be held in {size} of memory to order the whole image"));
         }
     }
 

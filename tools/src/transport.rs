@@ -1,0 +1,31 @@
+//! How light goes through a scene: photons from the lights, and the queries that ask for them.
+//!
+//! Every random number is a function of (seed, path) or (seed, pixel, sample): which rays are cast does not depend on the
+//! order of work. Transcendental functions come from `libm`, so recorded results are the same bytes on every x86-64.
+
+mod bvh;
+mod gather_rays;
+mod lights;
+mod photon_paths;
+mod sampling;
+mod scatter;
+mod surface;
+
+pub use bvh::{Bvh, RayCaster, RayHit};
+pub use gather_rays::{GatherOptions, GatherRays, Leaves, RayCounts};
+pub use photon_paths::{PathPhoton, PhotonPaths};
+pub use surface::{Stage, SurfacePoint};
+
+#[cfg(test)]
+mod tests;
+
+/// What random numbers are for: keys of different purposes never meet.
+#[derive(Clone, Copy)]
+#[repr(u64)]
+enum Purpose {
+    PhotonPath = 1,
+    PhotonRounding = 2,
+    EyePath = 3,
+    GatherRay = 4,
+    DirectLight = 5,
+}

@@ -1,0 +1,122 @@
+//! Lights: which triangle, and where on it.
+
+use super::Purpose;
+use super::sampling::{grid, triangle_point};
+use super::surface::{Stage, SurfacePoint};
+use crate::random::Random;
+use crate::scene::Scene;
+use glam::Vec3;
+
+/// The lights of a scene, to be chosen in proportion to their power.
+pub(super) struct Lights {
+    triangles: Vec<Light>,
+}
+
+struct Light {
+    triangle: usize,
+    radiance: Vec3,
+    /// Flux in watts, per channel.
+    flux: [f64; 3],
+    area: f64,
+    probability: f64,
+    /// Sum of the probabilities up to and including this one.
+    cumulative: f64,
+}
+
+/// A light chosen at random.
+pub(super) struct Chosen<'a> {
+    light: &'a Light,
+}
+
+impl Lights {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let lights = scene.lights();
+        let power = |flux: [f64; 3]| flux.iter().sum::<f64>();
+        let total: f64 = lights.iter().map(|light| power(light.flux)).sum();
+        let mut cumulative = 0.0;
+        let triangles = lights
+            .iter()
+            .map(|light| {
+                let probability = power(light.flux) / total;
+                cumulative += probability;
+                Light {
+                    triangle: light.triangle as usize,
+                    radiance: Vec3::from(light.emission),
+                    flux: light.flux,
+                    area: light.area,
+                    probability,
+                    cumulative,
+                }
+            })
+            .collect();
+        Self { triangles }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The light at `u` in [0, 1) of the total power.
+    pub(super) fn choose(&self, u: f32) -> Chosen<'_> {
+        let at = self.triangles.partition_point(|light| light.cumulative <= f64::from(u));
+        // Rounding may leave the last sum below 1.
+        Chosen { light: &self.triangles[at.min(self.triangles.len() - 1)] }
+    }
+
+    /// Radiance that a diffuse point reflects of light that comes straight from the lights: the mean over `samples`
+    /// shadow rays, without the point's reflectance.
+    ///
+    /// Samples are strata of the total power, and of each light's area as far as their number allows.
+    pub(super) fn irradiance(
+        &self,
+        stage: &Stage<'_>,
+        point: &SurfacePoint,
+        samples: u32,
+        random: &mut Random,
+    ) -> Vec3 {
+        if self.is_empty() || samples == 0 {
+            return Vec3::ZERO;
+        }
+        let (rows, columns) = grid(samples);
+        let mut sum = Vec3::ZERO;
+        for sample in 0..samples {
+            let chosen = self.choose((sample as f32 + random.unit()) / samples as f32);
+            // The sample number in another order, so that a light's share of the samples covers its area.
+            let (row, column) = (sample % rows, (sample / rows * 7 + sample) % columns);
+            let (u, v) = triangle_point(
+                (row as f32 + random.unit()) / rows as f32,
+                (column as f32 + random.unit()) / columns as f32,
+            );
+            let (target, normal) = stage.point_before(chosen.light.triangle, u, v);
+            let way = target - point.position;
+            let cosine_here = way.dot(point.facing);
+            let cosine_there = -way.dot(normal);
+            if cosine_here <= 0.0 || cosine_there <= 0.0 || stage.blocked(point.start(way), target) {
+                continue;
+            }
+            // cos cos' / d^2 over the density 1 / area; `way` is not normalised, hence d^4.
+            let geometry = f64::from(cosine_here) * f64::from(cosine_there) / f64::from(way.length_squared()).powi(2);
+            let weight = geometry * chosen.light.area / (chosen.light.probability * f64::from(samples));
+            sum += chosen.light.radiance * weight as f32;
+        }
+        sum
+    }
+}
+
+impl Chosen<'_> {
+    /// A point on the light, lifted off its front, and the normal there.
+    pub(super) fn point(&self, stage: &Stage<'_>, random: &mut Random) -> (Vec3, Vec3) {
+        let (u, v) = triangle_point(random.unit(), random.unit());
+        stage.point_before(self.light.triangle, u, v)
+    }
+
+    /// Flux of the light over the probability that it was chosen, in watts.
+    pub(super) fn path_flux(&self) -> Vec3 {
+        Vec3::from(self.light.flux.map(|flux| (flux / self.light.probability) as f32))
+    }
+}
+
+/// The random numbers of the direct light at one leaf of a pixel.
+pub(super) fn direct_random(seed: u64, pixel: u32, leaf: u32) -> Random {
+    Random::new(&[seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(leaf)])
+}
