@@ -24,7 +24,7 @@ impl Picture {
         Self { size, pixels: vec![[0.0; 3]; size[0] as usize * size[1] as usize] }
     }
 
-    /// Writes the picture in the format that the ending of `path` names, `.exr` or `.png`; attributes go into the former.
+    /// Writes the picture in the format that the ending of `path` names, `.exr` or `.png`; attributes go into the former as comments.
     ///
     /// # Errors
     /// For another ending, or if it cannot be written.
@@ -44,11 +44,9 @@ impl Picture {
         };
         let mut layer = LayerAttributes::default();
         layer.software_name = Text::new_or_none(concat!("pm ", env!("PM_VERSION")));
-        for (name, value) in attributes {
-            if let (Some(name), Some(value)) = (Text::new_or_none(name), Text::new_or_none(value)) {
-                layer.other.insert(name, exr::prelude::AttributeValue::Text(value));
-            }
-        }
+        // One text and not attributes of their own: the library keeps those in no fixed order.
+        let comments: Vec<String> = attributes.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        layer.comments = Text::new_or_none(comments.join("\n"));
         let channels = AnyChannels::sort([channel(0, "R"), channel(1, "G"), channel(2, "B")].into_iter().collect());
         let encoding =
             Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };

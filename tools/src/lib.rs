@@ -13,5 +13,6 @@ pub mod photon_map;
 pub mod random;
 pub mod report;
 pub mod scene;
+pub mod setting;
 pub mod size;
 pub mod transport;

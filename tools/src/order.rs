@@ -1,8 +1,10 @@
-//! Deferred orders: a stream of queries in, the same queries out in another order.
+//! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
 
+mod generative;
 mod hilbert;
 mod sorted;
 
+pub use generative::{Generative, Leaves, Span};
 pub use hilbert::{HILBERT_BITS, hilbert_key, hilbert_keys};
 pub use sorted::Sorted;
 

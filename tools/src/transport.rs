@@ -12,7 +12,7 @@ mod scatter;
 mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
-pub use gather_rays::{GatherOptions, GatherRays, Leaves, RayCounts};
+pub use gather_rays::{GatherOptions, GatherRays, RayCounts};
 pub use photon_paths::{PathPhoton, PhotonPaths};
 pub use surface::{Stage, SurfacePoint};
 

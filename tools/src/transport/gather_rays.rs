@@ -8,6 +8,7 @@ use super::photon_paths::patience;
 use super::sampling::{cosine_direction, grid};
 use super::scatter::specular;
 use super::surface::{Stage, SurfacePoint};
+use crate::order::Leaves;
 use crate::random::Random;
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
@@ -24,17 +25,6 @@ pub struct GatherOptions {
     pub seed: u64,
     /// Is direct light wanted at all? It changes no query.
     pub direct: bool,
-}
-
-/// Which of a pixel's points seen are gathered for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leaves {
-    /// All, in the order in which they are found.
-    All,
-    /// Only those seen directly.
-    Direct,
-    /// Only those seen in mirrors and through glass.
-    BehindSpecular,
 }
 
 /// Rays that were cast.

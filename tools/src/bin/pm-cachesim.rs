@@ -1,0 +1,149 @@
+//! Simulates caches over a trace and prints what each would fetch.
+
+use anyhow::Context as _;
+use clap::Parser;
+use pm_formats::trace::TraceReader;
+use pm_tools::cache::{CacheConfig, Row, Simulation};
+use pm_tools::cli::{self, Common, Progress, Typed, create_output, named, open_input, usage};
+use pm_tools::report::{Column, Format, Table, Value};
+use pm_tools::size::Bytes;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Simulate caches over an access trace: how much memory traffic is left?
+///
+/// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
+/// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
+/// block` divides by the number of lines that the map occupies, the unit of the paper.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+struct Args {
+    /// Traces to read, a table row for each trace and cache; `-` is standard input
+    #[arg(default_value = "-")]
+    traces: Vec<PathBuf>,
+    /// A cache: size, ways (`full` or a number), line size, policy (lru, none); may be repeated
+    #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways"])]
+    cache: Vec<CacheConfig>,
+    /// Cache sizes, combined with each of --lines and --ways
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "128K")]
+    sizes: Vec<Bytes>,
+    /// Line sizes
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "128")]
+    lines: Vec<Bytes>,
+    /// Ways: `full` or numbers
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "full")]
+    ways: Vec<String>,
+    /// How to print the result
+    #[arg(long, default_value = "table")]
+    format: Format,
+    #[command(flatten)]
+    common: Common,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
+  pm-cachesim --sizes 32K,128K,512K --lines 64,128 scanline.pmt hilbert.pmt
+  pm-cachesim --cache 128K,full,128,lru --cache 128K,8,128,lru --format csv trace.pmt";
+
+fn main() -> ExitCode {
+    cli::main("pm-cachesim", run)
+}
+
+fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
+    let configs = configurations(&args)?;
+    if args.traces.iter().filter(|trace| *trace == Path::new("-")).count() > 1 {
+        return Err(usage("standard input (`-`) can be read only once"));
+    }
+    let mut table = Table::new(columns());
+    for trace in &args.traces {
+        simulate(&args, trace, &configs, &mut table)?;
+    }
+    // The table is written when every trace was read to its end: a broken pipe yields none.
+    let mut text = Vec::new();
+    table.write(args.format, &mut text)?;
+    let mut output = create_output(Path::new("-"))?;
+    output.write_all(&text)?;
+    output.commit()
+}
+
+fn configurations(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
+    if !args.cache.is_empty() {
+        return Ok(args.cache.clone());
+    }
+    let mut configs = vec![];
+    for line in &args.lines {
+        for size in &args.sizes {
+            for ways in &args.ways {
+                let text = format!("{size},{ways},{line},lru");
+                configs.push(text.parse().map_err(|error| usage(format!("{text}: {error}")))?);
+            }
+        }
+    }
+    Ok(configs)
+}
+
+fn simulate(args: &Args, path: &Path, configs: &[CacheConfig], table: &mut Table) -> anyhow::Result<()> {
+    let name = named(path);
+    let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
+    let mut simulation = Simulation::new(&trace.header().regions, configs).context(name.clone())?;
+    let progress = Progress::new(trace.header().expected_records, "searches", args.common.quiet);
+    while let Some(block) = trace.replay_block(&mut simulation).with_context(|| name.clone())? {
+        progress.add(u64::from(block.records));
+    }
+    drop(progress);
+    let order = order_of(trace.header());
+    for row in simulation.finish() {
+        table.push(values(&order, &row));
+    }
+    Ok(())
+}
+
+/// The order of the queries, as the stream tells it: `tiled 16x16, hilbert per batch`.
+fn order_of(header: &pm_formats::Header) -> String {
+    let parts = ["order", "deferred order"].into_iter().filter_map(|name| header.meaning(name));
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+fn columns() -> Vec<Column> {
+    let words = ["order", "cache"].map(Column::text);
+    let numbers = [
+        "queries",
+        "reads",
+        "raw_bytes",
+        "accesses",
+        "fetches",
+        "bytes_fetched",
+        "bytes_written_back",
+        "compulsory",
+        "blocks",
+        "fetches_per_block",
+        "reads_per_query",
+        "fetches_per_query",
+        "bytes_per_query",
+    ]
+    .map(Column::number);
+    words.into_iter().chain(numbers).collect()
+}
+
+fn values(order: &str, row: &Row) -> Vec<Value> {
+    let ratio = |x: f64| Value::Float(x, 5);
+    vec![
+        Value::Text(order.to_owned()),
+        Value::Text(row.config.to_string()),
+        Value::Int(row.queries),
+        Value::Int(row.records.reads),
+        Value::Int(row.raw_bytes()),
+        Value::Int(row.accesses),
+        Value::Int(row.fetches),
+        Value::Int(row.bytes_fetched),
+        Value::Int(row.bytes_written_back),
+        Value::Int(row.compulsory),
+        Value::Int(row.blocks),
+        ratio(row.fetches_per_block()),
+        ratio(row.reads_per_query()),
+        ratio(row.fetches_per_query()),
+        ratio(row.bytes_per_query()),
+    ]
+}

@@ -1,0 +1,163 @@
+//! Casts the rays of a picture and writes where photons are to be gathered.
+
+use anyhow::Context as _;
+use clap::Parser;
+use pm_formats::{BlockMeta, Number, Query, RecordWriter, StageReport};
+use pm_tools::cli::{self, Common, OutputArgs, Progress, Typed, create_output};
+use pm_tools::film::{Film, Overflow};
+use pm_tools::image::{Format, Picture};
+use pm_tools::order::{Generative, Span};
+use pm_tools::parallel::in_order;
+use pm_tools::setting::{CameraArgs, SceneArgs, header};
+use pm_tools::transport::{GatherOptions, GatherRays, RayCounts};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Cast eye rays and final-gather rays; write a gather query wherever one ends on a diffuse surface.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+struct Args {
+    #[command(flatten)]
+    scene: SceneArgs,
+    #[command(flatten)]
+    camera: CameraArgs,
+    /// Gather rays for each point seen, in a grid of strata
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    gathers: u32,
+    /// Order in which the pixels are visited
+    #[arg(long, default_value = "scanline")]
+    order: Order,
+    /// Width and height of a tile in pixels
+    #[arg(long, value_name = "PIXELS", default_value = "16", value_parser = clap::value_parser!(u32).range(1..))]
+    tile: u32,
+    /// Also write the direct and emitted light as an EXR or PNG picture, before the stream ends
+    #[arg(long, value_name = "FILE")]
+    base: Option<PathBuf>,
+    /// Shadow rays for each point seen, for the direct light
+    #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    light_samples: u32,
+    /// Seed of the random numbers
+    #[arg(long, default_value = "0")]
+    seed: u64,
+    #[command(flatten)]
+    output: OutputArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Order {
+    /// Pixel by pixel, row by row; a row is a batch
+    Scanline,
+    /// Square tiles, each in scanline order and a batch; what is seen by reflection or refraction comes last in each
+    Tiled,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
+  pm-queries --size 512x512 --order tiled --tile 8 -t 2 -o tiled.pmq
+  pm-queries room.obj --eye 0,1.6,4 --look-at 0,1,0 --base direct.exr | pm-gather --base direct.exr --image room.exr --no-trace";
+
+fn main() -> ExitCode {
+    cli::main("pm-queries", run)
+}
+
+/// The queries and the light of a span of pixels.
+struct Cast {
+    batch: u64,
+    queries: Vec<Query>,
+    light: Vec<(u32, [i128; 3])>,
+    counts: RayCounts,
+}
+
+fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    if let Some(base) = &args.base {
+        Format::of(base)?;
+    }
+    let scene = args.scene.load(&args.common)?;
+    let camera = args.scene.camera(&scene, &args.camera, &args.common)?;
+    let size = camera.size();
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    let order = match args.order {
+        Order::Scanline => Generative::Scanline,
+        Order::Tiled => Generative::Tiled { tile: args.tile },
+    };
+    let mut header = header(&scene);
+    header.image = size;
+    header.expected_records = Some(pixels * u64::from(args.gathers));
+    header.set_meaning("order", order);
+    header.set_meaning("gathers", args.gathers);
+    header.history.push(typed.step(Some(args.seed), vec![]));
+
+    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
+    let options = GatherOptions {
+        gathers: args.gathers,
+        light_samples: args.light_samples,
+        seed: args.seed,
+        direct: base.is_some(),
+    };
+    let rays = GatherRays::new(&scene, camera, options);
+    let mut film = Film::new(if base.is_some() { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
+    // The threads only need its unit.
+    let unit = Film::new(0, light_scale(&scene));
+
+    let progress = Progress::new(Some(pixels), "pixels", args.common.quiet);
+    let mut counts = RayCounts::default();
+    let mut spans = order.spans(size);
+    in_order(
+        args.common.threads(),
+        || anyhow::Ok(spans.next()),
+        |span: Span| {
+            let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
+            let mut too_bright = None;
+            for x in span.columns.clone() {
+                let pixel = span.row * size[0] + x;
+                let light = |radiance: glam::Vec3| {
+                    if options.direct {
+                        match unit.quantise(radiance.as_dvec3().into()) {
+                            Some(units) => cast.light.push((pixel, units)),
+                            None => too_bright = Some(Overflow(pixel)),
+                        }
+                    }
+                };
+                rays.pixel(x, span.row, span.leaves, |query| cast.queries.push(query), light, &mut cast.counts);
+            }
+            too_bright.map_or(Ok((cast, span)), Err)
+        },
+        |cast| {
+            let (cast, span) = cast?;
+            output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
+            for (pixel, units) in cast.light {
+                film.add(pixel, units)?;
+            }
+            counts += cast.counts;
+            if span.first_pass {
+                progress.add(u64::from(span.columns.end - span.columns.start));
+            }
+            Ok(())
+        },
+    )?;
+    drop(progress);
+
+    if counts.eye > 0 && counts.gather == 0 {
+        args.common.remark("the camera sees no diffuse surface: there are no queries");
+    }
+    // Complete before the end block is: whoever has read that may read the picture.
+    if let Some((path, mut file)) = base {
+        Picture { size, pixels: film.pixels() }.write(path, &mut file, &[])?;
+        file.commit().with_context(|| path.display().to_string())?;
+    }
+    let report = StageReport::new(typed.program())
+        .with("eye_rays", Number::Count(counts.eye))
+        .with("gather_rays", Number::Count(counts.gather))
+        .with("gather_rays_lost", Number::Count(counts.gather_lost));
+    output.finish(vec![report])?.commit()
+}
+
+/// Radiance that the lights' flux suggests for a scene of this size.
+fn light_scale(scene: &pm_tools::scene::Scene) -> f64 {
+    let flux = scene.emitted_flux().into_iter().fold(0.0, f64::max);
+    flux / scene.bounds.size().as_dvec3().length_squared()
+}
