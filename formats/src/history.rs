@@ -15,27 +15,33 @@ pub struct Step {
     pub arguments: Vec<String>,
     /// Seed of its random numbers, where it draws any.
     pub seed: Option<u64>,
+    /// Name of the file that the stream was read from, as typed; `None` for a pipe, or where there was none to read.
+    pub input: Option<String>,
     /// Other streams that were read as a whole, by the name typed: a photon map, say.
     pub inputs: Vec<(String, Vec<Step>)>,
 }
 
-/// The history as commands that could be typed again: side inputs first, each in a line of its own, then the pipe.
+/// The history as commands that could be typed again: what was kept in files first, a line each, and the last pipe last.
 #[must_use]
 pub fn as_commands(history: &[Step]) -> String {
-    let mut text = String::new();
-    for (name, steps) in history.iter().flat_map(|step| &step.inputs) {
-        let commands = as_commands(steps);
-        let _ = writeln!(text, "{} > {}", commands.trim_end(), quoted(name));
+    let mut lines = String::new();
+    let mut pipe = String::new();
+    for step in history {
+        if let Some(file) = step.input.as_ref().filter(|_| !pipe.is_empty()) {
+            let _ = writeln!(lines, "{pipe} > {}", quoted(file));
+            pipe.clear();
+        }
+        for (name, steps) in &step.inputs {
+            let _ = writeln!(lines, "{} > {}", as_commands(steps).trim_end(), quoted(name));
+        }
+        pipe += if pipe.is_empty() { "" } else { " | " };
+        pipe += &step.program;
+        for argument in &step.arguments {
+            pipe.push(' ');
+            pipe += &quoted(argument);
+        }
     }
-    let pipe: Vec<String> = history
-        .iter()
-        .map(|step| {
-            let words = step.arguments.iter().map(|argument| quoted(argument));
-            std::iter::once(step.program.clone()).chain(words).collect::<Vec<_>>().join(" ")
-        })
-        .collect();
-    let _ = writeln!(text, "{}", pipe.join(" | "));
-    text
+    lines + &pipe + "\n"
 }
 
 /// A word as a POSIX shell would have it typed.
@@ -58,6 +64,7 @@ mod tests {
             version: "0".into(),
             arguments: arguments.iter().map(|&a| a.into()).collect(),
             seed: None,
+            input: None,
             inputs: vec![],
         }
     }
@@ -71,6 +78,14 @@ mod tests {
             as_commands(&history),
             "pm-photons -n 100 > map.pmp\npm-queries 'my scene.obj' | pm-reorder hilbert | pm-gather map.pmp\n"
         );
+    }
+
+    #[test]
+    fn streams_kept_in_files_are_made_before_they_are_read() {
+        let mut reorder = step("pm-reorder", &["hilbert", "q.pmq"]);
+        reorder.input = Some("q.pmq".into());
+        let history = [step("pm-queries", &[]), reorder, step("pm-gather", &["map.pmp"])];
+        assert_eq!(as_commands(&history), "pm-queries > q.pmq\npm-reorder hilbert q.pmq | pm-gather map.pmp\n");
     }
 
     #[test]

@@ -15,6 +15,7 @@ use clap::{CommandFactory, FromArgMatches};
 use pm_formats::Step;
 use std::ffi::OsString;
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
 
@@ -67,16 +68,24 @@ pub struct Typed {
 }
 
 impl Typed {
-    /// The history entry of this run.
+    /// The history entry of this run, which draws random numbers from `seed` if it does.
     #[must_use]
-    pub fn step(&self, seed: Option<u64>, inputs: Vec<(String, Vec<Step>)>) -> Step {
+    pub fn step(&self, seed: Option<u64>) -> Step {
         Step {
             program: self.program.to_owned(),
             version: VERSION.to_owned(),
             arguments: self.arguments.clone(),
             seed,
-            inputs,
+            input: None,
+            inputs: vec![],
         }
+    }
+
+    /// The history entry of this run, which reads the stream from `input`.
+    #[must_use]
+    pub fn step_from(&self, input: &Path, seed: Option<u64>) -> Step {
+        let named = (input != Path::new("-")).then(|| input.display().to_string());
+        Step { input: named, ..self.step(seed) }
     }
 
     /// Name of the program.

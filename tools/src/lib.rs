@@ -16,3 +16,4 @@ pub mod scene;
 pub mod setting;
 pub mod size;
 pub mod transport;
+pub mod view;

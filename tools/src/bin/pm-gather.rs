@@ -2,16 +2,14 @@
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
-use pm_formats::trace::{BlockEncoder, Region, TraceWriter};
-use pm_formats::{
-    Block, BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, StageReport, Tally, decode_checked,
-};
+use pm_formats::trace::TraceWriter;
+use pm_formats::{BlockReader, End, Header, Kind, Number, Photon, RecordReader, StageReport, Step, Tally};
 use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
-use pm_tools::film::{Film, Overflow};
-use pm_tools::gather::{Estimator, Outcome, RadianceEstimate};
+use pm_tools::film::Film;
+use pm_tools::gather::{Answered, Answerer, Estimator, Fault, RadianceEstimate, SearchCounts};
 use pm_tools::image::{Format, Picture};
 use pm_tools::parallel::in_order;
-use pm_tools::photon_map::{BruteForce, KdTree, Nearest, PhotonMap, Search, StartRadius, Visits};
+use pm_tools::photon_map::{BruteForce, KdTree, PhotonMap, Search, StartRadius};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -150,31 +148,6 @@ impl PhotonInput {
     }
 }
 
-/// What a block of queries became.
-struct Answered {
-    trace: Option<(Block, Tally)>,
-    tally: Tally,
-    contributions: Vec<(u32, [i128; 3])>,
-    counts: Counts,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Counts {
-    accesses: u64,
-    attempts: u64,
-    short: u64,
-    no_area: u64,
-}
-
-impl std::ops::AddAssign for Counts {
-    fn add_assign(&mut self, other: Self) {
-        self.accesses += other.accesses;
-        self.attempts += other.attempts;
-        self.short += other.short;
-        self.no_area += other.no_area;
-    }
-}
-
 fn gather(
     args: &Args,
     typed: &Typed,
@@ -193,7 +166,8 @@ fn gather(
     header.regions = map.regions();
     header.set_meaning("map", args.map.name());
     header.set_meaning("k", args.k);
-    header.history.push(typed.step(None, vec![(photons.name.clone(), photons.header.history.clone())]));
+    let inputs = vec![(photons.name.clone(), photons.header.history.clone())];
+    header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
 
     let mut trace = match args.no_trace {
         true => None,
@@ -209,25 +183,27 @@ fn gather(
         args.max_dist,
         args.estimator,
     );
-    let pixels = usize::try_from(query_header.pixels())?;
-    let mut film = Film::new(if images.is_empty() { 0 } else { pixels }, film_scale(&estimate, &query_header));
-    let worker = Worker {
+    let scale = estimate.scale(&query_header.bounds);
+    let wanted = !images.is_empty();
+    let mut film = Film::new(if wanted { usize::try_from(query_header.pixels())? } else { 0 }, scale);
+    // The threads only need the film's unit.
+    let unit = Film::new(0, scale);
+    let answerer = Answerer {
         search,
         map,
-        estimate: &estimate,
-        film: (!images.is_empty()).then(|| Film::new(0, film_scale(&estimate, &query_header))),
-        regions: trace.is_some().then_some(&header.regions),
         header: &query_header,
+        regions: trace.is_some().then_some(&header.regions[..]),
+        estimate: wanted.then_some((&estimate, &unit)),
     };
 
     let queries = std::cell::RefCell::new(queries);
     let progress = Progress::new(query_header.expected_records, "queries", args.common.quiet);
-    let (mut tally, mut counts) = (Tally::default(), Counts::default());
+    let (mut tally, mut counts) = (Tally::default(), SearchCounts::default());
     let name = named(&args.queries);
     in_order(
         args.common.threads(),
         || queries.borrow_mut().next_block().with_context(|| name.clone()),
-        |block| worker.answer(&block),
+        |block| answerer.answer(&block),
         |answered: Result<Answered, Fault>| {
             let answered = answered.map_err(|fault| match fault {
                 Fault::Damaged(what) => anyhow::Error::from(queries.borrow().damaged(what)).context(name.clone()),
@@ -263,19 +239,12 @@ fn gather(
     Ok(())
 }
 
-/// Radiance that the photons' flux suggests for a scene of this size.
-fn film_scale(estimate: &RadianceEstimate<'_>, header: &Header) -> f64 {
-    let side = |axis: usize| f64::from(header.bounds.max[axis]) - f64::from(header.bounds.min[axis]);
-    let diagonal_squared = (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>();
-    estimate.total_flux().into_iter().fold(0.0, f64::max) / diagonal_squared
-}
-
 fn stages(
     typed: &Typed,
     end: &End,
     photons: &PhotonInput,
     search: &Search,
-    counts: Counts,
+    counts: SearchCounts,
     tally: Tally,
 ) -> Vec<StageReport> {
     let mut stages = end.stages.clone();
@@ -313,57 +282,4 @@ fn write_images(args: &Args, header: &Header, film: &Film, images: Vec<(&PathBuf
         output.commit()?;
     }
     Ok(())
-}
-
-/// Why a block could not be answered.
-enum Fault {
-    Damaged(&'static str),
-    TooBright(Overflow),
-    Format(pm_formats::Error),
-}
-
-/// What a thread needs to answer queries.
-struct Worker<'a, M> {
-    search: Search,
-    map: &'a M,
-    estimate: &'a RadianceEstimate<'a>,
-    /// An empty film that knows the unit, if a picture is wanted.
-    film: Option<Film>,
-    /// Regions of the trace, if one is wanted.
-    regions: Option<&'a Vec<Region>>,
-    header: &'a Header,
-}
-
-impl<M: PhotonMap> Worker<'_, M> {
-    fn answer(&self, block: &Block) -> Result<Answered, Fault> {
-        let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
-        let mut found = Nearest::new(self.search.k, 0.0);
-        let mut visits = Visits::default();
-        let mut scratch = vec![];
-        let mut encoder = self.regions.map(|regions| BlockEncoder::new(regions));
-        let mut contributions = Vec::with_capacity(if self.film.is_some() { queries.len() } else { 0 });
-        let mut counts = Counts::default();
-        for query in &queries {
-            visits.clear();
-            counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
-            counts.accesses += visits.len() as u64;
-            counts.short += u64::from(!found.is_full());
-            if let Some(encoder) = &mut encoder {
-                encoder.begin(&[query.pixel]);
-                visits.runs().for_each(|(region, records)| encoder.records(region, records));
-                encoder.end();
-            }
-            if let Some(film) = &self.film {
-                match self.estimate.contribution(query, &found, &mut scratch) {
-                    Outcome::Radiance(radiance) => {
-                        let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
-                        contributions.push((query.pixel, units));
-                    }
-                    Outcome::NoArea => counts.no_area += 1,
-                }
-            }
-        }
-        let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
-        Ok(Answered { trace, tally, contributions, counts })
-    }
 }

@@ -53,7 +53,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let scene = args.scene.load(&args.common)?;
     let mut header = header(&scene);
     header.expected_records = Some(args.number);
-    header.history.push(typed.step(Some(args.seed), vec![]));
+    header.history.push(typed.step(Some(args.seed)));
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
 

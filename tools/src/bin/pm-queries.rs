@@ -88,7 +88,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     header.expected_records = Some(pixels * u64::from(args.gathers));
     header.set_meaning("order", order);
     header.set_meaning("gathers", args.gathers);
-    header.history.push(typed.step(Some(args.seed), vec![]));
+    header.history.push(typed.step(Some(args.seed)));
 
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;

@@ -65,7 +65,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     };
     let per = if args.per == Per::Batch { " per batch" } else { "" };
     header.set_meaning("deferred order", format!("{label}{per}"));
-    header.history.push(typed.step(seed, vec![]));
+    header.history.push(typed.step_from(&args.queries, seed));
 
     if let (Per::Image, Some(records)) = (args.per, header.expected_records) {
         // A record and its sorting key each.

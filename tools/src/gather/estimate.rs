@@ -3,7 +3,7 @@
 //! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2, with the constant kernel.
 
 use crate::photon_map::Nearest;
-use pm_formats::{Material, Photon, Query};
+use pm_formats::{Bounds, Material, Photon, Query};
 use std::f64::consts::PI;
 
 /// How the photons found become a radiance.
@@ -124,13 +124,14 @@ impl<'a> RadianceEstimate<'a> {
         sum
     }
 
-    /// Total flux of the map in watts, per channel: the scale that its radiances come at.
+    /// Radiance that the photons' flux suggests for a scene of these bounds: the scale for a [`Film`](crate::film::Film).
     #[must_use]
-    pub fn total_flux(&self) -> [f64; 3] {
-        let mut sum = [0f64; 3];
+    pub fn scale(&self, bounds: &Bounds) -> f64 {
+        let mut flux = [0f64; 3];
         for photon in &self.photons {
-            (0..3).for_each(|channel| sum[channel] += f64::from(photon.power[channel]) / self.emitted_paths);
+            (0..3).for_each(|channel| flux[channel] += f64::from(photon.power[channel]) / self.emitted_paths);
         }
-        sum
+        let side = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
+        flux.into_iter().fold(0.0, f64::max) / (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>()
     }
 }

@@ -1,0 +1,105 @@
+//! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
+
+use super::{Outcome, RadianceEstimate};
+use crate::film::{Film, Overflow};
+use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
+use pm_formats::trace::{BlockEncoder, Region};
+use pm_formats::{Block, Header, Query, Tally, decode_checked};
+use std::ops::AddAssign;
+
+/// What it takes to answer queries; shared by all threads.
+pub struct Answerer<'a, M> {
+    /// How photons are searched for.
+    pub search: Search,
+    /// Where.
+    pub map: &'a M,
+    /// Header of the query stream.
+    pub header: &'a Header,
+    /// Regions of the trace, if one is wanted.
+    pub regions: Option<&'a [Region]>,
+    /// How radiance is estimated, and a film that knows the picture's unit, if a picture is wanted.
+    pub estimate: Option<(&'a RadianceEstimate<'a>, &'a Film)>,
+}
+
+/// What a block of queries became.
+pub struct Answered {
+    /// The block of the trace that belongs to it, with number and digest of its searches.
+    pub trace: Option<(Block, Tally)>,
+    /// Number and digest of the queries.
+    pub tally: Tally,
+    /// What is to be added to which pixel.
+    pub contributions: Vec<(u32, [i128; 3])>,
+    /// What was done.
+    pub counts: SearchCounts,
+}
+
+/// What searches did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SearchCounts {
+    /// Records read.
+    pub accesses: u64,
+    /// Attempts made, at least one for each search.
+    pub attempts: u64,
+    /// Searches that found fewer than k photons.
+    pub short: u64,
+    /// Estimates that could not be made because the photons' disc has no area.
+    pub no_area: u64,
+}
+
+impl AddAssign for SearchCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.accesses += other.accesses;
+        self.attempts += other.attempts;
+        self.short += other.short;
+        self.no_area += other.no_area;
+    }
+}
+
+/// Why a block could not be answered.
+#[derive(Debug)]
+pub enum Fault {
+    /// It does not hold usable queries.
+    Damaged(&'static str),
+    /// A pixel's light does not fit the film.
+    TooBright(Overflow),
+    /// Its trace cannot be written.
+    Format(pm_formats::Error),
+}
+
+impl<M: PhotonMap> Answerer<'_, M> {
+    /// Answers the queries of one block, in their order.
+    ///
+    /// # Errors
+    /// See [`Fault`].
+    pub fn answer(&self, block: &Block) -> Result<Answered, Fault> {
+        let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
+        let mut found = Nearest::new(self.search.k, 0.0);
+        let mut visits = Visits::default();
+        let mut scratch = vec![];
+        let mut encoder = self.regions.map(BlockEncoder::new);
+        let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
+        let mut counts = SearchCounts::default();
+        for query in &queries {
+            visits.clear();
+            counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
+            counts.accesses += visits.len() as u64;
+            counts.short += u64::from(!found.is_full());
+            if let Some(encoder) = &mut encoder {
+                encoder.begin(&[query.pixel]);
+                visits.runs().for_each(|(region, records)| encoder.records(region, records));
+                encoder.end();
+            }
+            if let Some((estimate, film)) = self.estimate {
+                match estimate.contribution(query, &found, &mut scratch) {
+                    Outcome::Radiance(radiance) => {
+                        let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
+                        contributions.push((query.pixel, units));
+                    }
+                    Outcome::NoArea => counts.no_area += 1,
+                }
+            }
+        }
+        let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
+        Ok(Answered { trace, tally, contributions, counts })
+    }
+}
