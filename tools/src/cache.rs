@@ -24,6 +24,7 @@ mod config;
 mod lines;
 mod lru_stack;
 mod model;
+mod records;
 mod replacement;
 mod row;
 mod set_associative;

@@ -194,7 +194,7 @@ impl LruStack {
 
     /// The loop over a chunk whose times fit below the horizon.
     fn pass<const WRITES: bool>(&mut self, chunk: &LineChunk, counted: bool) {
-        let (slots, tags) = (chunk.slots(), chunk.tags());
+        let slots = chunk.slots();
         let start = self.now;
         let mut pending = Pending { slots, start, seen: 0 };
         let mut tail = self.levels[0].tail;
@@ -205,7 +205,7 @@ impl LruStack {
                 depth = depth_of(&self.levels, before);
                 make_room(&mut self.levels, depth, &mut pending, i, &self.last);
                 tail = self.levels[0].tail;
-                self.missed[depth * self.regions + usize::from(tags[i].region())] += u64::from(counted);
+                self.missed[depth * self.regions + chunk.tag(i).region()] += u64::from(counted);
                 self.compulsory += u64::from(counted && before == NEVER);
             }
             if WRITES {
@@ -213,7 +213,7 @@ impl LruStack {
                 // and a write dirty in all: `dirt` is the number of caches it is clean or absent in.
                 let dirt = &mut self.dirt[slot as usize];
                 *dirt = (*dirt).max(depth as u16);
-                if counted && tags[i].writes() {
+                if counted && chunk.tag(i).writes() {
                     self.dirtied[usize::from(*dirt)] += 1;
                     *dirt = 0;
                 }
@@ -308,9 +308,9 @@ impl CacheModel for LruStack {
 
 #[cfg(test)]
 mod tests {
-    use pm_formats::trace::{AccessKind, Coding, lay_out};
+    use pm_formats::trace::{Access, AccessKind, Coding, lay_out};
 
-    use super::super::lines::{Record, Rest};
+    use super::super::{lines::Cursor, records::Records};
     use super::*;
 
     /// Runs pseudo-random accesses to 60 lines, one in five a write, through caches of 1, 4 and 30 lines.
@@ -319,18 +319,17 @@ mod tests {
         let space = LineSpace::new(&regions, 64);
         let mut stack = Box::new(LruStack::new(&space, 1, &[1, 4, 30]));
         stack.horizon = horizon;
-        let mut chunk = LineChunk::new();
+        let mut chunk = LineChunk::default();
         let mut state = 1_u32;
         for round in 0..500 {
-            let records: Vec<Record> = (0..40)
-                .map(|_| {
-                    state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                    let line = (state >> 16) % if round % 50 < 25 { 60 } else { 6 };
-                    let kind = if state >> 29 == 0 { AccessKind::Write } else { AccessKind::Read };
-                    Record { address: regions[0].base + u64::from(line) * 64, len: 4, region: 0, kind }
-                })
-                .collect();
-            chunk.split(&space, &mut Rest::from(&records[..]));
+            let mut records = Records::new(40);
+            for _ in 0..40 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let line = (state >> 16) % if round % 50 < 25 { 60 } else { 6 };
+                let kind = if state >> 29 == 0 { AccessKind::Write } else { AccessKind::Read };
+                records.push(Access { kind, region: 0, len: 4, offset: u64::from(line) * 64 });
+            }
+            chunk.split(&space, &records.batch(), &mut Cursor::default());
             stack.run(&space, &chunk, round != 7);
         }
         stack.finish()
