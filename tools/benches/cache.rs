@@ -10,15 +10,14 @@
 
 use std::{hint::black_box, time::Instant};
 
-use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
+use pm_formats::trace::{Access, Coding, TraceSink, lay_out};
 use pm_tools::cache::{CacheConfig, Simulation};
 
 const PHOTONS: usize = 400_000;
 const K: usize = 100;
 /// The paper's cache: 128 KB in lines of 128 bytes.
 const LINES: usize = 1024;
-/// Six 20-byte photons in a line, none across two, in records of 128 / 6 bytes would not be whole: here each line holds
-/// six records and eight bytes of nothing.
+/// Six records of 20 bytes in a line and eight bytes of nothing: none crosses into the next.
 const PER_LINE: usize = 6;
 
 fn main() {
@@ -40,20 +39,22 @@ fn main() {
 }
 
 fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
+    let offsets: Vec<u32> = nodes.iter().map(|&node| padded(node)).collect();
+    let packed: Vec<u32> = nodes.iter().map(|&node| node * 20).collect();
     let one = ["128K,full,128,lru"];
     let ten: Vec<String> = (0..10).map(|i| format!("{},full,128,lru", 8192_u64 << i)).collect();
     let ten: Vec<&str> = ten.iter().map(String::as_str).collect();
     let contestants: Vec<(&str, Box<dyn Fn() -> u64>)> = vec![
         ("yardstick: table and list", Box::new(|| naive(blocks, LINES))),
-        ("128K,full,128,lru", Box::new(|| simulate(nodes, &one))),
-        ("... packed, 1 in 8 spans lines", Box::new(|| simulate_packed(nodes, &one))),
-        ("128K,8,128,lru", Box::new(|| simulate(nodes, &["128K,8,128,lru"]))),
-        ("3 sizes, one stack", Box::new(|| simulate(nodes, &ten[3..6]))),
-        ("3 sizes, one by one", Box::new(|| ten[3..6].iter().map(|c| simulate(nodes, &[*c])).sum())),
-        ("10 sizes, one stack", Box::new(|| simulate(nodes, &ten))),
-        ("10 sizes, one by one", Box::new(|| ten.iter().map(|c| simulate(nodes, &[*c])).sum())),
-        ("3 lines: 64, 128, 256", Box::new(|| simulate(nodes, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
-        ("no cache", Box::new(|| simulate(nodes, &["none"]))),
+        ("128K,full,128,lru", Box::new(|| simulate(&offsets, &one))),
+        ("... packed, 1 in 8 spans lines", Box::new(|| simulate(&packed, &one))),
+        ("128K,8,128,lru", Box::new(|| simulate(&offsets, &["128K,8,128,lru"]))),
+        ("3 sizes, one stack", Box::new(|| simulate(&offsets, &ten[3..6]))),
+        ("3 sizes, one by one", Box::new(|| ten[3..6].iter().map(|c| simulate(&offsets, &[*c])).sum())),
+        ("10 sizes, one stack", Box::new(|| simulate(&offsets, &ten))),
+        ("10 sizes, one by one", Box::new(|| ten.iter().map(|c| simulate(&offsets, &[*c])).sum())),
+        ("3 lines: 64, 128, 256", Box::new(|| simulate(&offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
+        ("no cache", Box::new(|| simulate(&offsets, &["none"]))),
     ];
     let only = std::env::var("ONLY").unwrap_or_default();
     let contestants: Vec<_> = contestants.into_iter().filter(|c| c.0.contains(&only)).collect();
@@ -81,28 +82,20 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     }
 }
 
-fn region(size: usize) -> Vec<Region> {
-    lay_out([("photons".to_owned(), size as u64, 20, Coding::Records)])
+/// Byte offset of a node whose record does not cross a line.
+fn padded(node: u32) -> u32 {
+    node / PER_LINE as u32 * 128 + node % PER_LINE as u32 * 20
 }
 
-/// Fetches of all caches, with records that never cross a line.
-fn simulate(nodes: &[u32], caches: &[&str]) -> u64 {
-    run(nodes, caches, PHOTONS.div_ceil(PER_LINE) * 128, |node| {
-        u64::from(node / PER_LINE as u32) * 128 + u64::from(node % PER_LINE as u32) * 20
-    })
-}
-
-/// The same with records one after another.
-fn simulate_packed(nodes: &[u32], caches: &[&str]) -> u64 {
-    run(nodes, caches, PHOTONS * 20, |node| u64::from(node) * 20)
-}
-
-fn run(nodes: &[u32], caches: &[&str], size: usize, offset: impl Fn(u32) -> u64) -> u64 {
+/// Fetches of all caches, for reads of 20 bytes.
+fn simulate(offsets: &[u32], caches: &[&str]) -> u64 {
     let configs: Vec<CacheConfig> = caches.iter().map(|c| c.parse().unwrap()).collect();
-    let mut simulation = Simulation::new(&region(size), &configs).unwrap();
+    let size = PHOTONS.div_ceil(PER_LINE) as u64 * 128;
+    let regions = lay_out([("photons".to_owned(), size, 20, Coding::Records)]);
+    let mut simulation = Simulation::new(&regions, &configs).unwrap();
     simulation.search(&[0]);
-    for &node in nodes {
-        simulation.access(Access::read(0, offset(node), 20));
+    for &offset in offsets {
+        simulation.access(Access::read(0, offset.into(), 20));
     }
     simulation.finish().iter().map(|row| row.fetches).sum()
 }

@@ -117,6 +117,37 @@ struct Level {
     queue: Queue,
 }
 
+impl Level {
+    /// One line more: the oldest has to leave if the level is full. What it holds is all in its queue.
+    #[inline]
+    fn pass_down(&mut self, last: &LastUse) -> Option<Use> {
+        if self.lines < self.capacity {
+            self.lines += 1;
+            return None;
+        }
+        let oldest = self.queue.pop(last)?;
+        self.tail = oldest.time + 1;
+        Some(oldest)
+    }
+
+    /// The same for the first level, part of whose lines are in what is pending before index `now`.
+    #[inline]
+    fn admit(&mut self, pending: &mut Pending, now: usize, last: &LastUse) -> Option<Use> {
+        if self.lines < self.capacity {
+            self.lines += 1;
+            return None;
+        }
+        loop {
+            if let Some(oldest) = self.queue.pop(last) {
+                self.tail = oldest.time + 1;
+                return Some(oldest);
+            }
+            // It is full, so one of its lines was last used in what is pending if none is queued.
+            pending.move_batch(&mut self.queue, now, last);
+        }
+    }
+}
+
 /// The part of the chunk in hand that no queue has seen yet.
 struct Pending<'a> {
     slots: &'a [u32],
@@ -130,6 +161,13 @@ struct Pending<'a> {
 const BATCH: usize = 64;
 
 impl Pending<'_> {
+    /// Moves the live ones of the next few uses before index `now` to the queue.
+    #[inline(never)]
+    fn move_batch(&mut self, queue: &mut Queue, now: usize, last: &LastUse) {
+        assert!(self.seen < now, "a full level has lines");
+        self.move_to(queue, now.min(self.seen + BATCH), last);
+    }
+
     /// Moves live uses before index `end` to the queue.
     #[inline]
     fn move_to(&mut self, queue: &mut Queue, end: usize, last: &LastUse) {
@@ -193,7 +231,10 @@ impl LruStack {
     }
 
     /// The loop over a chunk whose times fit below the horizon.
-    fn pass<const WRITES: bool>(&mut self, chunk: &LineChunk, counted: bool) {
+    ///
+    /// Whether there are writes, and whether there is one size only, is settled outside of the loop: it is half as fast
+    /// again for the most common case, reads through one cache.
+    fn pass<const WRITES: bool, const ONE_SIZE: bool>(&mut self, chunk: &LineChunk, counted: bool) {
         let slots = chunk.slots();
         let start = self.now;
         let mut pending = Pending { slots, start, seen: 0 };
@@ -202,8 +243,13 @@ impl LruStack {
             let before = std::mem::replace(&mut self.last.0[slot as usize], start + i as u32);
             let mut depth = 0;
             if before < tail {
-                depth = depth_of(&self.levels, before);
-                make_room(&mut self.levels, depth, &mut pending, i, &self.last);
+                if ONE_SIZE {
+                    depth = 1;
+                    self.levels[0].admit(&mut pending, i, &self.last);
+                } else {
+                    depth = depth_of(&self.levels, before);
+                    make_room(&mut self.levels, depth, &mut pending, i, &self.last);
+                }
                 tail = self.levels[0].tail;
                 self.missed[depth * self.regions + chunk.tag(i).region()] += u64::from(counted);
                 self.compulsory += u64::from(counted && before == NEVER);
@@ -251,27 +297,15 @@ fn depth_of(levels: &[Level], before: u32) -> usize {
 }
 
 /// Makes room in the first level for the access at index `now`: each level above `depth` passes its oldest line down.
-#[inline]
 fn make_room(levels: &mut [Level], depth: usize, pending: &mut Pending, now: usize, last: &LastUse) {
-    let mut from_above = None;
-    for (i, level) in levels[..depth].iter_mut().enumerate() {
-        if let Some(u) = from_above {
-            level.queue.push(u, last);
-        }
-        if level.lines < level.capacity {
-            level.lines += 1;
-            return;
-        }
-        let mut oldest = level.queue.pop(last);
-        // The first level is full, so one of its lines was last used in what is pending if none is queued.
-        while i == 0 && oldest.is_none() && pending.seen < now {
-            pending.move_to(&mut level.queue, now.min(pending.seen + BATCH), last);
-            oldest = level.queue.pop(last);
-        }
-        level.tail = oldest.map_or(level.tail, |u| u.time + 1);
-        from_above = oldest;
+    let Some((first, others)) = levels.split_first_mut() else { return };
+    let mut from_above = first.admit(pending, now, last);
+    for level in &mut others[..depth - 1] {
+        let Some(u) = from_above else { return };
+        level.queue.push(u, last);
+        from_above = level.pass_down(last);
     }
-    if let (Some(u), Some(level)) = (from_above, levels.get_mut(depth)) {
+    if let (Some(u), Some(level)) = (from_above, others.get_mut(depth - 1)) {
         level.queue.push(u, last);
     }
 }
@@ -285,10 +319,11 @@ impl CacheModel for LruStack {
             self.dirt = vec![self.levels.len() as u16; self.last.0.len()];
         }
         // A trace without writes, which most are, never looks at dirtiness.
-        if self.dirt.is_empty() {
-            self.pass::<false>(chunk, counted);
-        } else {
-            self.pass::<true>(chunk, counted);
+        match (self.dirt.is_empty(), self.levels.len() == 1) {
+            (true, true) => self.pass::<false, true>(chunk, counted),
+            (true, false) => self.pass::<false, false>(chunk, counted),
+            (false, true) => self.pass::<true, true>(chunk, counted),
+            (false, false) => self.pass::<true, false>(chunk, counted),
         }
     }
 
