@@ -17,7 +17,7 @@ pub(super) struct LineSpace {
 }
 
 /// How the lines of a region are numbered.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Numbering {
     /// First byte address.
     base: u64,
@@ -97,10 +97,6 @@ pub(super) struct LineChunk {
     len: usize,
     accesses: u64,
     writes: bool,
-    /// Slots of the first lines of records.
-    firsts: Vec<u32>,
-    /// Slots of their last lines.
-    lasts: Vec<u32>,
 }
 
 /// Not a slot: there are fewer (`MAX_LINES` of the simulation).
@@ -113,109 +109,77 @@ impl LineChunk {
         if cursor.records == batch.tags.len() {
             return false;
         }
-        match batch.common_tag {
+        let whole_lines = match batch.common_tag {
             Some(tag) => {
-                let numbering = space.regions[tag.region()];
-                self.find_ends(batch, space.shift, |_| numbering);
                 self.writes = tag.writes();
+                self.tags.clear();
+                self.tags.push(tag);
+                self.tag_mask = 0;
+                self.pack::<false>(space, batch, tag)
             }
             None => {
-                self.find_ends(batch, space.shift, |tag| space.regions[tag.region()]);
                 self.writes = batch.tags.iter().fold(false, |any, tag| any | tag.writes());
+                self.tags.resize(self.tags.len().max(2 * batch.tags.len()), Tag::default());
+                self.tag_mask = usize::MAX;
+                self.pack::<true>(space, batch, Tag::default())
             }
-        }
-        // Bits of the numbers of extra lines, and their sum; which is only used if all of them are 0 or 1.
-        let extra = self.firsts.iter().zip(&self.lasts).map(|(first, last)| last - first);
-        let (bits, sum) = extra.fold((0, 0_u32), |(bits, sum), extra| (bits | extra, sum.wrapping_add(extra)));
-        if bits > 1 {
-            self.split_long(batch.tags, cursor);
-            return true;
-        }
-        cursor.records = self.firsts.len();
-        self.accesses = self.firsts.len() as u64 + u64::from(sum);
-        if let Some(tag) = batch.common_tag {
-            self.tags.clear();
-            self.tags.push(tag);
-            self.tag_mask = 0;
-            if bits == 0 { self.pack_whole() } else { self.pack_spanning() }
+        };
+        if whole_lines {
+            cursor.records = batch.tags.len();
         } else {
-            self.tag_mask = usize::MAX;
-            self.pack_mixed(batch.tags);
+            self.split_long(space, batch, cursor);
         }
         true
     }
 
-    fn find_ends(&mut self, batch: &Batch, shift: u32, numbering: impl Fn(Tag) -> Numbering) {
-        self.firsts.resize(batch.tags.len(), 0);
-        self.lasts.resize(batch.tags.len(), 0);
-        let accesses = batch.offsets.iter().zip(batch.lens).zip(batch.tags);
-        for ((first, last), ((&offset, &len), &tag)) in self.firsts.iter_mut().zip(&mut self.lasts).zip(accesses) {
-            (*first, *last) = numbering(tag).ends(shift, offset, len);
-        }
-    }
-
-    // Which line accesses to leave out depends on the data, so the following three are arithmetic and not branches: each
-    // is written where the next one goes, and the place is taken or not.
-
-    /// One tag, and no record spans lines.
-    fn pack_whole(&mut self) {
-        self.slots.resize(self.slots.len().max(self.firsts.len()), 0);
-        let free = &mut self.slots[..self.firsts.len()];
-        let (mut len, mut before) = (0, NO_SLOT);
-        for &slot in &self.firsts {
-            free[len] = slot;
-            len += usize::from(slot != before);
-            before = slot;
-        }
-        self.len = len;
-    }
-
-    /// One tag, and records span at most two lines.
-    fn pack_spanning(&mut self) {
-        self.slots.resize(self.slots.len().max(2 * self.firsts.len()), 0);
-        let free = &mut self.slots[..2 * self.firsts.len()];
-        let (mut len, mut before) = (0, NO_SLOT);
-        for (&first, &last) in self.firsts.iter().zip(&self.lasts) {
-            free[len] = first;
-            len += usize::from(first != before);
-            free[len] = last;
-            len += usize::from(first != last);
-            before = last;
-        }
-        self.len = len;
-    }
-
-    /// Any tags, and records span at most two lines.
-    fn pack_mixed(&mut self, tags: &[Tag]) {
-        let room = self.slots.len().max(2 * self.firsts.len());
-        self.slots.resize(room, 0);
-        self.tags.resize(room, Tag::default());
-        let (slots, labels) = (&mut self.slots[..room], &mut self.tags[..room]);
-        let (mut len, mut before) = (0, (NO_SLOT, Tag::default()));
-        for ((&first, &last), &tag) in self.firsts.iter().zip(&self.lasts).zip(tags) {
-            (slots[len], labels[len]) = (first, tag);
-            len += usize::from((first, tag) != before);
-            (slots[len], labels[len]) = (last, tag);
-            len += usize::from(first != last);
+    /// The line accesses of all records, whose tags are `MIXED` or all `common`; false if one spans more than two lines.
+    fn pack<const MIXED: bool>(&mut self, space: &LineSpace, batch: &Batch, common: Tag) -> bool {
+        let records = batch.tags.len();
+        self.slots.resize(self.slots.len().max(2 * records), 0);
+        let slots = &mut self.slots[..2 * records];
+        let tags = &mut self.tags[..];
+        let numbering = if MIXED { Numbering::default() } else { space.regions[common.region()] };
+        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common), 0, 0);
+        for ((&offset, &bytes), &tag) in batch.offsets.iter().zip(batch.lens).zip(batch.tags) {
+            let (tag, numbering) = if MIXED { (tag, space.regions[tag.region()]) } else { (common, numbering) };
+            let (first, last) = numbering.ends(space.shift, offset, bytes);
+            // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
+            // where the next one goes, and the place is taken or not.
+            slots[len] = first;
+            if MIXED {
+                tags[len] = tag;
+            }
+            len += usize::from(first != before.0 || (MIXED && tag != before.1));
+            slots[len] = last;
+            if MIXED {
+                tags[len] = tag;
+            }
+            len += usize::from(last != first);
             before = (last, tag);
+            extra += u64::from(last - first);
+            most |= last - first;
         }
-        self.len = len;
+        (self.len, self.accesses) = (len, records as u64 + extra);
+        most <= 1
     }
 
-    /// Any records, until the chunk is full.
-    fn split_long(&mut self, tags: &[Tag], cursor: &mut Cursor) {
+    /// The line accesses of records of any length, until the chunk is full.
+    #[cold]
+    fn split_long(&mut self, space: &LineSpace, batch: &Batch, cursor: &mut Cursor) {
         self.slots.clear();
         self.tags.clear();
         self.tag_mask = usize::MAX;
-        while cursor.records < tags.len() && self.slots.len() < LONG_CHUNK {
-            let (first, last) = (self.firsts[cursor.records], self.lasts[cursor.records]);
+        while cursor.records < batch.tags.len() && self.slots.len() < LONG_CHUNK {
+            let at = cursor.records;
+            let numbering = space.regions[batch.tags[at].region()];
+            let (first, last) = numbering.ends(space.shift, batch.offsets[at], batch.lens[at]);
             let from = first + cursor.lines;
             let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
             self.slots.extend(from..=to);
-            self.tags.resize(self.slots.len(), tags[cursor.records]);
+            self.tags.resize(self.slots.len(), batch.tags[at]);
             *cursor = match to == last {
-                true => Cursor { records: cursor.records + 1, lines: 0 },
-                false => Cursor { records: cursor.records, lines: to - first + 1 },
+                true => Cursor { records: at + 1, lines: 0 },
+                false => Cursor { records: at, lines: to - first + 1 },
             };
         }
         self.len = self.slots.len();
