@@ -38,13 +38,16 @@ fn main() {
     }
 }
 
+/// A name, and a job that counts misses.
+type Contestant<'a> = (&'a str, Box<dyn Fn() -> u64 + 'a>);
+
 fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     let offsets: Vec<u32> = nodes.iter().map(|&node| padded(node)).collect();
     let packed: Vec<u32> = nodes.iter().map(|&node| node * 20).collect();
     let one = ["128K,full,128,lru"];
     let ten: Vec<String> = (0..10).map(|i| format!("{},full,128,lru", 8192_u64 << i)).collect();
     let ten: Vec<&str> = ten.iter().map(String::as_str).collect();
-    let contestants: Vec<(&str, Box<dyn Fn() -> u64>)> = vec![
+    let contestants: Vec<Contestant> = vec![
         ("yardstick: table and list", Box::new(|| naive(blocks, LINES))),
         ("the same list fed accesses", Box::new(|| naive_sink(&offsets, LINES))),
         ("128K,full,128,lru", Box::new(|| simulate(&offsets, &one))),

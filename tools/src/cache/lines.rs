@@ -2,7 +2,7 @@
 
 use pm_formats::trace::Region;
 
-use super::records::{Batch, Tag};
+use super::records::{Batch, Shape, Tag};
 
 /// Numbers the lines of all regions without gaps, so that a model can keep a table indexed by line.
 ///
@@ -106,43 +106,45 @@ impl LineChunk {
     /// Replaces the content by the line accesses of `batch` from `cursor` on, and moves that on: past all records unless
     /// some are so long that they would make a chunk without bounds. False if no records are left.
     pub(super) fn split(&mut self, space: &LineSpace, batch: &Batch, cursor: &mut Cursor) -> bool {
-        if cursor.records == batch.tags.len() {
+        if cursor.records == batch.shapes.len() {
             return false;
         }
-        let whole_lines = match batch.common_tag {
-            Some(tag) => {
-                self.writes = tag.writes();
+        let short = match batch.common {
+            Some(shape) => {
+                self.writes = shape.tag().writes();
                 self.tags.clear();
-                self.tags.push(tag);
+                self.tags.push(shape.tag());
                 self.tag_mask = 0;
-                self.pack::<false>(space, batch, tag)
+                self.pack::<false>(space, batch, shape)
             }
             None => {
-                self.writes = batch.tags.iter().fold(false, |any, tag| any | tag.writes());
-                self.tags.resize(self.tags.len().max(2 * batch.tags.len()), Tag::default());
+                self.writes = batch.shapes.iter().fold(false, |any, shape| any | shape.tag().writes());
+                self.tags.resize(self.tags.len().max(2 * batch.shapes.len()), Tag::default());
                 self.tag_mask = usize::MAX;
-                self.pack::<true>(space, batch, Tag::default())
+                self.pack::<true>(space, batch, Shape::default())
             }
         };
-        if whole_lines {
-            cursor.records = batch.tags.len();
+        if short {
+            cursor.records = batch.shapes.len();
         } else {
             self.split_long(space, batch, cursor);
         }
         true
     }
 
-    /// The line accesses of all records, whose tags are `MIXED` or all `common`; false if one spans more than two lines.
-    fn pack<const MIXED: bool>(&mut self, space: &LineSpace, batch: &Batch, common: Tag) -> bool {
-        let records = batch.tags.len();
+    /// The line accesses of all records, whose shapes are `MIXED` or all `common`; false if one spans more than two lines.
+    fn pack<const MIXED: bool>(&mut self, space: &LineSpace, batch: &Batch, common: Shape) -> bool {
+        let records = batch.shapes.len();
         self.slots.resize(self.slots.len().max(2 * records), 0);
         let slots = &mut self.slots[..2 * records];
         let tags = &mut self.tags[..];
-        let numbering = if MIXED { Numbering::default() } else { space.regions[common.region()] };
-        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common), 0, 0);
-        for ((&offset, &bytes), &tag) in batch.offsets.iter().zip(batch.lens).zip(batch.tags) {
-            let (tag, numbering) = if MIXED { (tag, space.regions[tag.region()]) } else { (common, numbering) };
-            let (first, last) = numbering.ends(space.shift, offset, bytes);
+        let numbering = if MIXED { Numbering::default() } else { space.regions[common.tag().region()] };
+        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.tag()), 0, 0);
+        for (&offset, &shape) in batch.offsets.iter().zip(batch.shapes) {
+            let shape = if MIXED { shape } else { common };
+            let tag = shape.tag();
+            let numbering = if MIXED { space.regions[tag.region()] } else { numbering };
+            let (first, last) = numbering.ends(space.shift, offset, shape.len());
             // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
             // where the next one goes, and the place is taken or not.
             slots[len] = first;
@@ -169,14 +171,14 @@ impl LineChunk {
         self.slots.clear();
         self.tags.clear();
         self.tag_mask = usize::MAX;
-        while cursor.records < batch.tags.len() && self.slots.len() < LONG_CHUNK {
+        while cursor.records < batch.shapes.len() && self.slots.len() < LONG_CHUNK {
             let at = cursor.records;
-            let numbering = space.regions[batch.tags[at].region()];
-            let (first, last) = numbering.ends(space.shift, batch.offsets[at], batch.lens[at]);
+            let (shape, tag) = (batch.shapes[at], batch.shapes[at].tag());
+            let (first, last) = space.regions[tag.region()].ends(space.shift, batch.offsets[at], shape.len());
             let from = first + cursor.lines;
             let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
             self.slots.extend(from..=to);
-            self.tags.resize(self.slots.len(), batch.tags[at]);
+            self.tags.resize(self.slots.len(), tag);
             *cursor = match to == last {
                 true => Cursor { records: at + 1, lines: 0 },
                 false => Cursor { records: at, lines: to - first + 1 },
@@ -225,7 +227,7 @@ mod tests {
     fn split(space: &LineSpace, accesses: &[(u64, u32, AccessKind)]) -> (Vec<(u32, bool)>, u64) {
         let mut records = Records::new(CHUNK);
         for &(offset, len, kind) in accesses {
-            records.push(Access { kind, region: 0, len, offset });
+            assert!(records.push(&Access { kind, region: 0, len, offset }));
         }
         let (mut chunk, mut cursor) = (LineChunk::default(), Cursor::default());
         let (mut slots, mut number) = (Vec::new(), 0);

@@ -35,25 +35,42 @@ impl Tag {
     }
 }
 
+/// An access but for its offset: tag and length. Most batches of most traces have only one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Shape(u64);
+
+impl Shape {
+    #[inline]
+    fn new(access: &Access) -> Self {
+        Self(u64::from(Tag::new(access.region, access.kind).0) << 32 | u64::from(access.len))
+    }
+
+    /// Region and kind.
+    #[inline]
+    pub(super) fn tag(self) -> Tag {
+        Tag((self.0 >> 32) as u32)
+    }
+
+    /// Length in bytes.
+    #[inline]
+    pub(super) fn len(self) -> u32 {
+        self.0 as u32
+    }
+}
+
 /// The most accesses that wait: few enough for them and their line accesses to stay in a core's own cache, enough that
 /// most uses are dead when the LRU stack looks back at them.
 pub(super) const CHUNK: usize = 2048;
 
-/// Accesses side by side: arrays of what is needed together, so that loops over them take several at a step, and of fixed
-/// length, so that adding one is three stores.
-#[derive(Debug)]
-struct Arrays {
-    offsets: [u64; CHUNK],
-    lens: [u32; CHUNK],
-    tags: [Tag; CHUNK],
-}
-
 /// Accesses on their way in.
 #[derive(Debug)]
 pub(super) struct Records {
-    arrays: Box<Arrays>,
-    len: usize,
-    capacity: usize,
+    // Fixed lengths, so that adding an access is one comparison and two stores.
+    offsets: Box<[u64; CHUNK]>,
+    shapes: Box<[Shape; CHUNK]>,
+    /// Accesses wait at `start..end`.
+    start: usize,
+    end: usize,
 }
 
 /// Accesses to be simulated.
@@ -61,91 +78,103 @@ pub(super) struct Records {
 pub(super) struct Batch<'a> {
     /// Byte offsets from the bases of the regions.
     pub(super) offsets: &'a [u64],
-    /// Lengths in bytes.
-    pub(super) lens: &'a [u32],
-    /// Regions and kinds.
-    pub(super) tags: &'a [Tag],
-    /// The tag that all have, if there is one.
-    pub(super) common_tag: Option<Tag>,
+    /// Regions, kinds and lengths.
+    pub(super) shapes: &'a [Shape],
+    /// The shape that all have, if there is one.
+    pub(super) common: Option<Shape>,
 }
 
 impl Records {
     /// Room for `capacity` accesses, at most [`CHUNK`].
     pub(super) fn new(capacity: usize) -> Self {
-        let arrays = Box::new(Arrays { offsets: [0; CHUNK], lens: [0; CHUNK], tags: [Tag::default(); CHUNK] });
-        Self { arrays, len: 0, capacity: capacity.min(CHUNK) }
+        let start = CHUNK.saturating_sub(capacity);
+        Self { offsets: Box::new([0; CHUNK]), shapes: Box::new([Shape::default(); CHUNK]), start, end: start }
     }
 
-    /// Whether there is no more room.
+    /// Adds an access; false if there is no room.
     #[inline]
-    pub(super) fn is_full(&self) -> bool {
-        self.len >= self.capacity
-    }
-
-    /// Adds an access.
-    #[inline]
-    pub(super) fn push(&mut self, access: Access) {
-        self.arrays.offsets[self.len] = access.offset;
-        self.arrays.lens[self.len] = access.len;
-        self.arrays.tags[self.len] = Tag::new(access.region, access.kind);
-        self.len += 1;
+    pub(super) fn push(&mut self, access: &Access) -> bool {
+        if self.end >= CHUNK {
+            return false;
+        }
+        self.offsets[self.end] = access.offset;
+        self.shapes[self.end] = Shape::new(access);
+        self.end += 1;
+        true
     }
 
     /// Forgets all accesses.
     pub(super) fn clear(&mut self) {
-        self.len = 0;
+        self.end = self.start;
     }
 
     /// The accesses that wait.
     pub(super) fn batch(&self) -> Batch<'_> {
-        let tags = &self.arrays.tags[..self.len];
-        let first = self.arrays.tags[0];
-        let differences = tags.iter().fold(0, |bits, tag| bits | (tag.0 ^ first.0));
-        Batch {
-            offsets: &self.arrays.offsets[..self.len],
-            lens: &self.arrays.lens[..self.len],
-            tags,
-            common_tag: (differences == 0).then_some(first),
-        }
+        let shapes = &self.shapes[self.start..self.end];
+        let common = shapes.first().copied().filter(|first| {
+            let differences = shapes.iter().fold(0, |bits, shape| bits | (shape.0 ^ first.0));
+            differences == 0
+        });
+        Batch { offsets: &self.offsets[self.start..self.end], shapes, common }
     }
 }
 
 impl Batch<'_> {
     /// Whether each access lies within its region.
     pub(super) fn are_within(&self, regions: &[Region]) -> bool {
-        let accesses = self.offsets.iter().zip(self.lens);
-        match self.common_tag {
-            // An empty batch may have the tag of a region that is not there.
-            _ if self.tags.is_empty() => true,
-            Some(tag) if tag.region() < regions.len() && regions[tag.region()].size >> 63 == 0 => {
-                // Nothing here has its top bit set, unless an offset or an end is too large: then so is one of these.
-                let size = regions[tag.region()].size;
-                let bits = accesses.fold(0, |bits, (&offset, &len)| {
-                    let end = offset.wrapping_add(u64::from(len.max(1)));
-                    bits | offset | end | size.wrapping_sub(end)
-                });
-                bits >> 63 == 0
+        let limit = |shape: Shape| {
+            // The offsets that are within lie below this.
+            let size = regions.get(shape.tag().region()).map_or(0, |region| region.size);
+            size.saturating_add(1).saturating_sub(u64::from(shape.len().max(1)))
+        };
+        match self.common.map(limit) {
+            Some(limit) if limit >> 63 == 0 => {
+                // One of these has its top bit set if an offset is not below the limit, none if all are.
+                let bits = self.offsets.iter().fold(!0, |bits, offset| bits & !offset & offset.wrapping_sub(limit));
+                bits >> 63 == 1 || self.offsets.is_empty()
             }
-            _ => accesses.zip(self.tags).all(|((&offset, &len), tag)| {
-                let size = regions.get(tag.region()).map_or(0, |region| region.size);
-                offset < size && u64::from(len) <= size - offset
-            }),
+            _ => self.offsets.iter().zip(self.shapes).all(|(&offset, &shape)| offset < limit(shape)),
         }
     }
 
     /// Adds the accesses to the counts of their regions.
     pub(super) fn count(&self, counts: &mut [RecordCounts]) {
-        match self.common_tag {
-            _ if self.tags.is_empty() => {}
-            Some(tag) => {
-                let bytes = self.lens.iter().map(|&len| u64::from(len)).sum();
-                counts[tag.region()].add_records(tag.kind(), self.tags.len() as u64, bytes);
-            }
-            None => {
-                for (&len, tag) in self.lens.iter().zip(self.tags) {
-                    counts[tag.region()].add_records(tag.kind(), 1, len.into());
-                }
-            }
+        let mut add = |shape: Shape, number: u64| {
+            let bytes = number * u64::from(shape.len());
+            counts[shape.tag().region()].add_records(shape.tag().kind(), number, bytes);
+        };
+        match self.common {
+            Some(shape) => add(shape, self.shapes.len() as u64),
+            None => self.shapes.iter().for_each(|&shape| add(shape, 1)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pm_formats::trace::lay_out;
+
+    use super::*;
+
+    #[test]
+    fn only_accesses_within_their_regions_are_let_through() {
+        let regions =
+            lay_out([100, 0, 1 << 40].map(|size| (String::new(), size, 1, pm_formats::trace::Coding::Records)));
+        let within = |accesses: &[(u16, u64, u32)]| {
+            let mut records = Records::new(CHUNK);
+            accesses
+                .iter()
+                .for_each(|&(region, offset, len)| assert!(records.push(&Access::read(region, offset, len))));
+            records.batch().are_within(&regions)
+        };
+        for good in [(0, 0, 100), (0, 80, 20), (0, 99, 0), (2, (1 << 40) - 4, 4)] {
+            assert!(within(&[good]) && within(&[good, good]) && within(&[(0, 0, 1), good]), "{good:?}");
+        }
+        for bad in
+            [(0, 0, 101), (0, 81, 20), (0, 100, 0), (0, 200, 1), (0, u64::MAX, 20), (0, 1 << 63, 1), (0, 0, u32::MAX)]
+        {
+            assert!(!within(&[bad]) && !within(&[bad, (0, 0, 1)]) && !within(&[(0, 0, bad.2), bad]), "{bad:?}");
+        }
+        assert!(!within(&[(1, 0, 0)]) && !within(&[(3, 0, 1)]) && within(&[]));
     }
 }

@@ -223,10 +223,10 @@ impl TraceSink for Simulation {
 
     #[inline]
     fn access(&mut self, access: Access) {
-        if self.records.is_full() {
+        if !self.records.push(&access) {
             self.flush();
+            self.records.push(&access);
         }
-        self.records.push(access);
     }
 }
 
