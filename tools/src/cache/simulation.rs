@@ -94,15 +94,16 @@ pub enum SimulationError {
     TooManyFrames(CacheConfig),
 }
 
-/// Lines of all regions that can be simulated: their numbers and a few marks fit 32 bits.
-const MAX_LINES: u64 = u32::MAX as u64 - 2;
+/// Lines of all regions that can be simulated: half of what 32 bits tell apart, so that the times of the LRU stack, one
+/// for each line at least, leave room for time to pass.
+const MAX_LINES: u64 = 1 << 31;
 
 impl Simulation {
     /// Prepares to simulate `configs` on a trace of these regions.
     ///
     /// # Errors
     ///
-    /// If the regions have more than about 2^32 lines, or reach past the last address, or a set-associative cache has more
+    /// If the regions have more than 2^31 lines, or reach past the last address, or a set-associative cache has more
     /// than about 2^32 lines.
     pub fn new(regions: &[Region], configs: &[CacheConfig]) -> Result<Self, SimulationError> {
         Self::with_chunk(regions, configs, CHUNK)
