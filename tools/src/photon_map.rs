@@ -10,7 +10,7 @@ mod observer;
 mod search;
 
 pub use brute_force::BruteForce;
-pub use kd_tree::KdTree;
+pub use kd_tree::{KdTree, Layout};
 pub use nearest::Nearest;
 pub use observer::{AccessObserver, Blind, Visits};
 pub use search::{Search, StartRadius};

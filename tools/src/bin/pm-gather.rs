@@ -9,7 +9,7 @@ use pm_tools::film::Film;
 use pm_tools::gather::{Answered, Answerer, Estimator, Fault, RadianceEstimate, SearchCounts};
 use pm_tools::image::{Format, Picture};
 use pm_tools::parallel::in_order;
-use pm_tools::photon_map::{BruteForce, KdTree, PhotonMap, Search, StartRadius};
+use pm_tools::photon_map::{BruteForce, KdTree, Layout, PhotonMap, Search, StartRadius};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -29,6 +29,9 @@ struct Args {
     /// Structure of the photon map
     #[arg(long, default_value = "kd")]
     map: Map,
+    /// Where the nodes of the kd-tree lie in memory: changes the addresses read, not the answer
+    #[arg(long, default_value = "heap")]
+    layout: Layout,
     /// Number of nearest photons to gather
     #[arg(short, default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     k: u32,
@@ -120,7 +123,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
     }
     match args.map {
-        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons)?, &photons, queries),
+        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons, args.layout)?, &photons, queries),
         Map::Brute => gather(&args, typed, &BruteForce::build(&photons.photons)?, &photons, queries),
     }
 }
