@@ -24,8 +24,8 @@ use pm_formats::trace::Region;
 /// operations; photons within the bound (inclusive) are found; of more than k, the k smallest by (distance, photon id).
 /// So the answer depends on nothing but the photons and the query.
 pub trait PhotonMap: Sync {
-    /// The memory the map would live in, each region as it is to be traced.
-    fn regions(&self) -> Vec<Region>;
+    /// The memory the map would live in, each region as it is to be traced, with or without second touches.
+    fn regions(&self, reread: bool) -> Vec<Region>;
 
     /// Number of photons.
     fn len(&self) -> usize;

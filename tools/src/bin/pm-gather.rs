@@ -42,6 +42,9 @@ struct Args {
     /// radius that 99 % of the searches at 1,000 photons need
     #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
     start_radius: StartRadius,
+    /// Also log the second touch of each inner node, when the search comes back to it for its own photon
+    #[arg(long)]
+    reread: bool,
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
     estimator: Estimator,
@@ -166,7 +169,7 @@ fn gather(
     };
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
-    header.regions = map.regions();
+    header.regions = map.regions(args.reread);
     header.set_meaning("map", args.map.name());
     header.set_meaning("k", args.k);
     let inputs = vec![(photons.name.clone(), photons.header.history.clone())];
@@ -195,6 +198,7 @@ fn gather(
         search,
         map,
         header: &query_header,
+        reread: args.reread,
         regions: trace.is_some().then_some(&header.regions[..]),
         estimate: wanted.then_some((&estimate, &unit)),
     };

@@ -75,6 +75,12 @@ impl KdTree {
         Ok(Self { nodes, places })
     }
 
+    /// Which record of the traced memory a node is.
+    #[inline(always)]
+    fn record(&self, node: usize) -> u32 {
+        self.places.get(node - 1).copied().unwrap_or((node - 1) as u32)
+    }
+
     /// Split axis and photon id of each node, in the order of the traced memory.
     pub fn nodes(&self) -> impl Iterator<Item = (usize, u32)> {
         self.nodes.iter().map(|node| (node.axis(), node.id()))
@@ -129,10 +135,10 @@ fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f
 }
 
 impl PhotonMap for KdTree {
-    fn regions(&self) -> Vec<Region> {
+    fn regions(&self, reread: bool) -> Vec<Region> {
         let record = size_of::<Photon>() as u32;
         let nodes = u32::try_from(self.nodes.len()).expect("checked when built");
-        let coding = if self.places.is_empty() { Coding::HeapWalk { nodes } } else { Coding::Records };
+        let coding = if self.places.is_empty() { Coding::HeapWalk { nodes, reread } } else { Coding::Records };
         lay_out([("kd nodes".into(), u64::from(nodes) * u64::from(record), record, coding)])
     }
 
@@ -141,7 +147,8 @@ impl PhotonMap for KdTree {
     }
 
     /// Jensen's search: the child on the query's side first, then the other if the splitting plane lies within the
-    /// bound, then the node's own photon. A node is read once, when it is reached.
+    /// bound, then the node's own photon. A node is read when it is reached, and the inner ones are looked at again for
+    /// their own photon.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         let nodes = &self.nodes[..];
         let count = nodes.len();
@@ -155,7 +162,7 @@ impl PhotonMap for KdTree {
         let mut at = 1;
         loop {
             let node = nodes[at - 1];
-            eyes.read(0, self.places.get(at - 1).copied().unwrap_or((at - 1) as u32));
+            eyes.read(0, self.record(at));
             let left = 2 * at;
             if left <= count {
                 let axis = node.axis();
@@ -174,6 +181,7 @@ impl PhotonMap for KdTree {
                     at = far;
                     continue;
                 }
+                eyes.reread(0, self.record(at));
             }
             found.show(distance_squared(point, node.position), node.id());
             loop {
@@ -188,6 +196,7 @@ impl PhotonMap for KdTree {
                     break;
                 }
                 depth -= 1;
+                eyes.reread(0, self.record(parent as usize));
                 let node = nodes[parent as usize - 1];
                 found.show(distance_squared(point, node.position), node.id());
             }
