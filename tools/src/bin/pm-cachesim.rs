@@ -15,7 +15,8 @@ use std::process::ExitCode;
 ///
 /// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
 /// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
-/// block` divides by the number of lines that the map occupies, the unit of the paper.
+/// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
+/// json have all.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
@@ -56,7 +57,7 @@ fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
     if args.traces.iter().filter(|trace| *trace == Path::new("-")).count() > 1 {
         return Err(usage("standard input (`-`) can be read only once"));
     }
-    let mut table = Table::new(columns());
+    let mut table = Table::new(columns(args.format));
     for trace in &args.traces {
         simulate(&args, trace, &configs, &mut table)?;
     }
@@ -95,7 +96,7 @@ fn simulate(args: &Args, path: &Path, configs: &[CacheConfig], table: &mut Table
     drop(progress);
     let order = order_of(trace.header());
     for row in simulation.finish() {
-        table.push(values(&order, &row));
+        table.push(values(args.format, &order, &row));
     }
     Ok(())
 }
@@ -106,30 +107,44 @@ fn order_of(header: &pm_formats::Header) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-fn columns() -> Vec<Column> {
-    let words = ["order", "cache"].map(Column::text);
-    let numbers = [
-        "queries",
-        "reads",
-        "raw_bytes",
-        "accesses",
-        "fetches",
-        "bytes_fetched",
-        "bytes_written_back",
-        "compulsory",
-        "blocks",
-        "fetches_per_block",
-        "reads_per_query",
-        "fetches_per_query",
-        "bytes_per_query",
-    ]
-    .map(Column::number);
-    words.into_iter().chain(numbers).collect()
+/// Columns of the result: name, and is it one that the table shows?
+const COLUMNS: [(&str, bool); 15] = [
+    ("order", true),
+    ("cache", true),
+    ("queries", true),
+    ("reads", false),
+    ("raw_bytes", false),
+    ("accesses", false),
+    ("fetches", true),
+    ("bytes_fetched", true),
+    ("bytes_written_back", false),
+    ("compulsory", false),
+    ("blocks", false),
+    ("reads_per_query", true),
+    ("fetches_per_query", true),
+    ("fetches_per_block", true),
+    ("bytes_per_query", false),
+];
+
+/// Significant digits of ratios in the table.
+const DIGITS: u8 = 5;
+
+/// Which columns a format has.
+fn shown(format: Format) -> impl Fn(&(usize, &(&str, bool))) -> bool {
+    move |&(_, &(_, in_table))| in_table || format != Format::Table
 }
 
-fn values(order: &str, row: &Row) -> Vec<Value> {
-    let ratio = |x: f64| Value::Float(x, 5);
-    vec![
+fn columns(format: Format) -> Vec<Column> {
+    let column = |(index, &(name, _)): (usize, &(&str, bool))| match index {
+        0 | 1 => Column::text(name),
+        _ => Column::number(name),
+    };
+    COLUMNS.iter().enumerate().filter(shown(format)).map(column).collect()
+}
+
+fn values(format: Format, order: &str, row: &Row) -> Vec<Value> {
+    let ratio = |x: f64| Value::Float(x, DIGITS);
+    let all = [
         Value::Text(order.to_owned()),
         Value::Text(row.config.to_string()),
         Value::Int(row.queries),
@@ -141,9 +156,15 @@ fn values(order: &str, row: &Row) -> Vec<Value> {
         Value::Int(row.bytes_written_back),
         Value::Int(row.compulsory),
         Value::Int(row.blocks),
-        ratio(row.fetches_per_block()),
         ratio(row.reads_per_query()),
         ratio(row.fetches_per_query()),
+        ratio(row.fetches_per_block()),
         ratio(row.bytes_per_query()),
-    ]
+    ];
+    let shown = shown(format);
+    all.into_iter()
+        .zip(COLUMNS.iter().enumerate())
+        .filter(|(_, column)| shown(column))
+        .map(|(value, _)| value)
+        .collect()
 }

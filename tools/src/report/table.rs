@@ -4,13 +4,20 @@ use std::io::{self, Write};
 
 use super::{Align, Table, Value};
 
-/// Writes `table` with two spaces between columns and none at the end of a line.
+/// Writes `table` with two spaces between columns and none at the end of a line. A long name such as
+/// `fetches_per_query` takes two lines, so that its column need not be as wide.
 pub(super) fn write(table: &Table, out: &mut dyn Write) -> io::Result<()> {
-    let head: Vec<String> = table.columns.iter().map(|c| printable(&c.name)).collect();
+    let (upper, lower): (Vec<String>, Vec<String>) = table.columns.iter().map(|c| head(&printable(&c.name))).unzip();
     let rows: Vec<Vec<String>> = table.rows.iter().map(|row| row.iter().map(cell).collect()).collect();
-    let width = |i: usize| rows.iter().chain([&head]).map(|row| row[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..head.len()).map(width).collect();
-    for row in [&head].into_iter().chain(&rows) {
+    let mut lines: Vec<&Vec<String>> = vec![];
+    if upper.iter().any(|name| !name.is_empty()) {
+        lines.push(&upper);
+    }
+    lines.push(&lower);
+    lines.extend(&rows);
+    let width = |i: usize| lines.iter().map(|line| line[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..lower.len()).map(width).collect();
+    for row in lines {
         let mut line = String::new();
         for (i, text) in row.iter().enumerate() {
             let gap = if i == 0 { "" } else { "  " };
@@ -22,6 +29,14 @@ pub(super) fn write(table: &Table, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())
+}
+
+/// The two lines of a column's head: `fetches` above `per_query`.
+fn head(name: &str) -> (String, String) {
+    match name.find("_per_") {
+        Some(at) if at > 0 => (name[..at].to_owned(), name[at + 1..].to_owned()),
+        _ => (String::new(), name.to_owned()),
+    }
 }
 
 fn cell(value: &Value) -> String {
@@ -100,6 +115,13 @@ none                      7          -
         table.push(vec![Value::Text("a\nb\u{1b}[2J".into())]);
         assert_eq!(text(&table).lines().count(), 2);
         assert!(!text(&table).contains('\u{1b}'));
+    }
+
+    #[test]
+    fn long_names_take_two_lines() {
+        let mut table = Table::new(vec![Column::text("cache"), Column::number("fetches_per_query")]);
+        table.push(vec![Value::Text("none".into()), Value::Int(7)]);
+        assert_eq!(text(&table), "         fetches\ncache  per_query\nnone           7\n");
     }
 
     #[test]
