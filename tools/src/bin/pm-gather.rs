@@ -127,7 +127,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
 /// A photon stream read as a whole.
 struct PhotonInput {
-    name: String,
     header: Header,
     photons: Vec<Photon>,
     emitted_paths: u64,
@@ -144,7 +143,7 @@ impl PhotonInput {
         let Some(Number::Count(emitted_paths)) = input.end()?.measure("emitted_paths") else {
             bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
         };
-        Ok(Self { header: input.header().clone(), name, photons, emitted_paths })
+        Ok(Self { header: input.header().clone(), photons, emitted_paths })
     }
 }
 
@@ -166,7 +165,7 @@ fn gather(
     header.regions = map.regions();
     header.set_meaning("map", args.map.name());
     header.set_meaning("k", args.k);
-    let inputs = vec![(photons.name.clone(), photons.header.history.clone())];
+    let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
 
     let mut trace = match args.no_trace {
