@@ -168,12 +168,13 @@ fn gather(
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
 
+    // First, so that a reader of the trace who leaves at once does not leave without the pictures being missed.
+    let images: Vec<(&PathBuf, Output)> =
+        args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let mut trace = match args.no_trace {
         true => None,
         false => Some(TraceWriter::new(args.output.create()?, &header)?),
     };
-    let images: Vec<(&PathBuf, Output)> =
-        args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let estimate = RadianceEstimate::new(
         &photons.photons,
         &query_header.materials,
