@@ -6,8 +6,13 @@ use pm_formats::{Query, Tally};
 use pm_tools::image::Picture;
 
 /// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.
-const GENERATIVE: [&str; 5] =
-    ["--order scanline", "--order tiled --tile 1", "--order tiled --tile 3", "--order tiled", "--order tiled --tile 99"];
+const GENERATIVE: [&str; 5] = [
+    "--order scanline",
+    "--order tiled --tile 1",
+    "--order tiled --tile 3",
+    "--order tiled",
+    "--order tiled --tile 99",
+];
 
 /// Orders that `pm-reorder` brings queries into.
 const DEFERRED: [&str; 5] =

@@ -80,10 +80,7 @@ fn the_history_of_files_can_be_typed_again() {
 
 #[test]
 fn the_history_of_photons_from_a_pipe_can_be_typed_again() {
-    made_again(&[
-        "pm-queries --size 8x8 --gathers 2 -o q.pmq",
-        "pm-photons -n 300 | pm-gather - q.pmq -o t.pmt",
-    ]);
+    made_again(&["pm-queries --size 8x8 --gathers 2 -o q.pmq", "pm-photons -n 300 | pm-gather - q.pmq -o t.pmt"]);
 }
 
 #[test]

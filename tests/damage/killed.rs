@@ -82,10 +82,9 @@ fn a_shell_without_pipefail_sees_it_too() {
     let folder = Folder::new();
     folder.run("pm-photons -n 2000 -o map.pmp").ok();
     // Whoever has got so much of the trace kills the first program of the pipe, which has by far not finished.
-    let outcome = folder.sh(
-        "sh -c 'echo $$ > pid; exec pm-queries --size 2000x2000' | pm-reorder random --per batch | pm-gather |
-         { head -c 300000 > part; kill -9 $(cat pid); cat part -; } | pm-cachesim",
-    );
+    let outcome = folder
+        .sh("sh -c 'echo $$ > pid; exec pm-queries --size 2000x2000' | pm-reorder random --per batch | pm-gather |
+         { head -c 300000 > part; kill -9 $(cat pid); cat part -; } | pm-cachesim");
     assert_eq!(outcome.code, 3, "{}", outcome.stderr);
     assert!(outcome.stdout.is_empty());
     assert!(outcome.stderr.contains("pm-reorder: standard input: after "), "{}", outcome.stderr);
