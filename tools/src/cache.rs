@@ -17,13 +17,14 @@
 //! * **Compulsory** fetches are lines touched for the first time in the whole trace, by an access that counts. A line
 //!   first touched during warm-up is nobody's compulsory fetch.
 //!
-//! To add a policy of sets and ways, write a [`replacement`] of it; for anything else, a [`model::CacheModel`]; either is
-//! one file, a name in [`Policy`] and a line in [`simulation`].
+//! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
+//! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
 mod lines;
 mod lru_stack;
 mod model;
+mod records;
 mod replacement;
 mod row;
 mod set_associative;

@@ -10,7 +10,7 @@ mod observer;
 mod search;
 
 pub use brute_force::BruteForce;
-pub use kd_tree::KdTree;
+pub use kd_tree::{KdTree, Layout};
 pub use nearest::Nearest;
 pub use observer::{AccessObserver, Blind, Visits};
 pub use search::{Search, StartRadius};
@@ -24,8 +24,8 @@ use pm_formats::trace::Region;
 /// operations; photons within the bound (inclusive) are found; of more than k, the k smallest by (distance, photon id).
 /// So the answer depends on nothing but the photons and the query.
 pub trait PhotonMap: Sync {
-    /// The memory the map would live in, each region as it is to be traced.
-    fn regions(&self) -> Vec<Region>;
+    /// The memory the map would live in, each region as it is to be traced, with or without second touches.
+    fn regions(&self, reread: bool) -> Vec<Region>;
 
     /// Number of photons.
     fn len(&self) -> usize;

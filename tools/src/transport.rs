@@ -12,7 +12,7 @@ mod scatter;
 mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
-pub use gather_rays::{GatherOptions, GatherRays, RayCounts};
+pub use gather_rays::{GatherOptions, GatherRays, RayCounts, Strata};
 pub use photon_paths::{PathPhoton, PhotonPaths};
 pub use surface::{Stage, SurfacePoint};
 
@@ -28,4 +28,5 @@ enum Purpose {
     EyePath = 3,
     GatherRay = 4,
     DirectLight = 5,
+    StrataOrder = 6,
 }

@@ -12,6 +12,8 @@ pub enum Coding {
     HeapWalk {
         /// Number of nodes; node 1 is the root.
         nodes: u32,
+        /// Each inner node is read a second time when all that is visited below it has been.
+        reread: bool,
     },
 }
 

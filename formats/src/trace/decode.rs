@@ -51,9 +51,13 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
         let region = regions.get(usize::from(number))?;
         let size = region.record_size;
         if head & 1 == 1 {
-            let Coding::HeapWalk { nodes } = region.coding else { return None };
+            let Coding::HeapWalk { nodes, reread } = region.coding else { return None };
             let read = |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
-            heap_walk::decode(&mut bits, nodes, read)?;
+            if reread {
+                heap_walk::decode::<true>(&mut bits, nodes, read)?;
+            } else {
+                heap_walk::decode::<false>(&mut bits, nodes, read)?;
+            }
             continue;
         }
         for _ in 0..take(&mut planes.heads)? {

@@ -73,13 +73,19 @@ impl<'a> BlockEncoder<'a> {
     }
 
     /// The search reads whole records of a region, given by index, in this order.
+    ///
+    /// Where the region's coding implies second touches they are not among `indices`, which then must be walks.
+    ///
+    /// # Panics
+    /// If they are not.
     pub fn records(&mut self, region: u16, indices: &[u32]) {
         let mut rest = indices;
-        if let Coding::HeapWalk { nodes } = self.regions[usize::from(region)].coding {
+        if let Coding::HeapWalk { nodes, reread } = self.regions[usize::from(region)].coding {
             while let Some(len) = heap_walk::encode(rest, nodes, &mut self.walks) {
                 self.segment(region, true, 0);
                 rest = &rest[len..];
             }
+            assert!(rest.is_empty() || !reread, "second touches are implied by walks only");
         }
         if !rest.is_empty() {
             self.segment(region, false, rest.len() as u64);

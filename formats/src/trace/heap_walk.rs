@@ -131,9 +131,17 @@ fn encode_walk(visited: &[u32], nodes: u32, bits: &mut BitWriter) -> Option<usiz
 }
 
 /// Calls `visit` with the number of each node of a walk; `None` if the bits end before the walk does.
+///
+/// With `REREAD` it is called again for each inner node when all that is visited below it has been: the second touch of
+/// a search that looks at a node's own record last. That costs no bits.
 #[inline]
-pub(super) fn decode(bits: &mut BitReader<'_>, nodes: u32, mut visit: impl FnMut(u32)) -> Option<()> {
-    let mut others = [0u32; MAX_DEPTH];
+pub(super) fn decode<const REREAD: bool>(
+    bits: &mut BitReader<'_>,
+    nodes: u32,
+    mut visit: impl FnMut(u32),
+) -> Option<()> {
+    // Nodes above, and their second children as long as these are not decided upon (else 0).
+    let mut above = [(0u32, 0u32); MAX_DEPTH];
     let mut depth = 0;
     if nodes == 0 {
         return None;
@@ -143,23 +151,43 @@ pub(super) fn decode(bits: &mut BitReader<'_>, nodes: u32, mut visit: impl FnMut
         visit(node);
         let left = 2 * node;
         if left < nodes {
-            node = left + bits.bit()?;
-            others[depth] = node ^ 1;
+            let first = left + bits.bit()?;
+            above[depth] = (node, first ^ 1);
             depth += 1;
+            node = first;
             continue;
         }
-        if left == nodes && bits.bit()? == 1 {
-            node = left;
-            continue;
+        if left == nodes {
+            let taken = bits.bit()? == 1;
+            if taken && REREAD {
+                above[depth] = (node, 0);
+                depth += 1;
+            }
+            if taken {
+                node = left;
+                continue;
+            }
+            if REREAD {
+                visit(node);
+            }
         }
         loop {
             if depth == 0 {
                 return Some(());
             }
-            depth -= 1;
-            if bits.bit()? == 1 {
-                node = others[depth];
+            let (parent, other) = above[depth - 1];
+            if other != 0 && bits.bit()? == 1 {
+                if REREAD {
+                    above[depth - 1].1 = 0;
+                } else {
+                    depth -= 1;
+                }
+                node = other;
                 break;
+            }
+            depth -= 1;
+            if REREAD {
+                visit(parent);
             }
         }
     }
@@ -170,38 +198,48 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A depth-first walk that goes where `choices` say: the definition, by recursion.
-    fn walk(node: u32, nodes: u32, choices: &mut impl FnMut() -> bool, visited: &mut Vec<u32>) {
+    /// A depth-first walk that goes where `choices` say: the definition, by recursion. Also with second touches.
+    fn walk(node: u32, nodes: u32, choices: &mut impl FnMut() -> bool, visited: &mut Vec<u32>, touched: &mut Vec<u32>) {
         visited.push(node - 1);
+        touched.push(node - 1);
         let children: Vec<u32> = [2 * node, 2 * node + 1].into_iter().filter(|&c| c <= nodes).collect();
         match children[..] {
             [left, right] => {
                 let (first, other) = if choices() { (right, left) } else { (left, right) };
-                walk(first, nodes, choices, visited);
+                walk(first, nodes, choices, visited, touched);
                 if choices() {
-                    walk(other, nodes, choices, visited);
+                    walk(other, nodes, choices, visited, touched);
                 }
             }
-            [only] if choices() => walk(only, nodes, choices, visited),
+            [only] if choices() => walk(only, nodes, choices, visited, touched),
             _ => {}
+        }
+        if !children.is_empty() {
+            touched.push(node - 1);
         }
     }
 
     fn decoded(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
         let mut visited = vec![];
-        decode(&mut BitReader::new(bytes), nodes, |node| visited.push(node - 1)).map(|()| visited)
+        decode::<false>(&mut BitReader::new(bytes), nodes, |node| visited.push(node - 1)).map(|()| visited)
+    }
+
+    fn decoded_with_rereads(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
+        let mut touched = vec![];
+        decode::<true>(&mut BitReader::new(bytes), nodes, |node| touched.push(node - 1)).map(|()| touched)
     }
 
     proptest! {
         #[test]
         fn any_walk_comes_back(nodes in 1u32..200, choices in prop::collection::vec(any::<bool>(), 0..512)) {
             let mut choices = choices.into_iter().cycle();
-            let mut visited = vec![];
-            walk(1, nodes, &mut || choices.next().unwrap_or(true), &mut visited);
+            let (mut visited, mut touched) = (vec![], vec![]);
+            walk(1, nodes, &mut || choices.next().unwrap_or(true), &mut visited, &mut touched);
             let mut bits = BitWriter::default();
             prop_assert_eq!(encode(&visited, nodes, &mut bits), Some(visited.len()));
             bits.align();
             prop_assert_eq!(decoded(&bits.bytes, nodes), Some(visited.clone()));
+            prop_assert_eq!(decoded_with_rereads(&bits.bytes, nodes), Some(touched));
             // A second walk right behind it is told apart.
             let twice = [visited.clone(), visited.clone()].concat();
             prop_assert_eq!(encode(&twice, nodes, &mut BitWriter::default()), Some(visited.len()));

@@ -118,7 +118,7 @@ fn check_regions(regions: &[Region]) -> std::result::Result<(), &'static str> {
         if !region.base.is_multiple_of(super::REGION_ALIGNMENT) {
             return Err("a region does not begin on a page");
         }
-        if let Coding::HeapWalk { nodes } = region.coding {
+        if let Coding::HeapWalk { nodes, .. } = region.coding {
             let needed = u64::from(nodes) * u64::from(region.record_size);
             if nodes > MAX_NODES || region.record_size == 0 || needed > region.size {
                 return Err("a region is smaller than its nodes");

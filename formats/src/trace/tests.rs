@@ -20,7 +20,7 @@ impl TraceSink for Collect {
 
 fn regions() -> Vec<Region> {
     lay_out([
-        ("tree".into(), 20 * 1000, 20, Coding::HeapWalk { nodes: 1000 }),
+        ("tree".into(), 20 * 1000, 20, Coding::HeapWalk { nodes: 1000, reread: false }),
         ("table".into(), 1 << 20, 8, Coding::Records),
     ])
 }

@@ -9,7 +9,7 @@ use pm_tools::film::Film;
 use pm_tools::gather::{Answered, Answerer, Estimator, Fault, RadianceEstimate, SearchCounts};
 use pm_tools::image::{Format, Picture};
 use pm_tools::parallel::in_order;
-use pm_tools::photon_map::{BruteForce, KdTree, PhotonMap, Search, StartRadius};
+use pm_tools::photon_map::{BruteForce, KdTree, Layout, PhotonMap, Search, StartRadius};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -29,6 +29,9 @@ struct Args {
     /// Structure of the photon map
     #[arg(long, default_value = "kd")]
     map: Map,
+    /// Where the nodes of the kd-tree lie in memory: changes the addresses read, not the answer
+    #[arg(long, default_value = "heap")]
+    layout: Layout,
     /// Number of nearest photons to gather
     #[arg(short, default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     k: u32,
@@ -39,6 +42,9 @@ struct Args {
     /// radius that 99 % of the searches at 1,000 photons need
     #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
     start_radius: StartRadius,
+    /// Also log the second touch of each inner node, when the search comes back to it for its own photon
+    #[arg(long)]
+    reread: bool,
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
     estimator: Estimator,
@@ -120,7 +126,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
     }
     match args.map {
-        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons)?, &photons, queries),
+        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons, args.layout)?, &photons, queries),
         Map::Brute => gather(&args, typed, &BruteForce::build(&photons.photons)?, &photons, queries),
     }
 }
@@ -162,7 +168,7 @@ fn gather(
     };
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
-    header.regions = map.regions();
+    header.regions = map.regions(args.reread);
     header.set_meaning("map", args.map.name());
     header.set_meaning("k", args.k);
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
@@ -192,6 +198,7 @@ fn gather(
         search,
         map,
         header: &query_header,
+        reread: args.reread,
         regions: trace.is_some().then_some(&header.regions[..]),
         estimate: wanted.then_some((&estimate, &unit)),
     };

@@ -9,7 +9,7 @@ use pm_tools::image::{Format, Picture};
 use pm_tools::order::{Generative, Span};
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
-use pm_tools::transport::{GatherOptions, GatherRays, RayCounts};
+use pm_tools::transport::{GatherOptions, GatherRays, RayCounts, Strata};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,6 +30,9 @@ struct Args {
     /// Width and height of a tile in pixels
     #[arg(long, value_name = "PIXELS", default_value = "16", value_parser = clap::value_parser!(u32).range(1..))]
     tile: u32,
+    /// In which order the gather rays of a point are cast
+    #[arg(long, default_value = "raster")]
+    strata: Strata,
     /// Also write the direct and emitted light as an EXR or PNG picture, before the stream ends
     #[arg(long, value_name = "FILE")]
     base: Option<PathBuf>,
@@ -98,6 +101,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         light_samples: args.light_samples,
         seed: args.seed,
         direct: base.is_some(),
+        strata: args.strata,
     };
     let rays = GatherRays::new(&scene, camera, options);
     let mut film = Film::new(if base.is_some() { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));

@@ -2,6 +2,8 @@
 
 use pm_formats::trace::Region;
 
+use super::records::{Batch, Shape, Tag};
+
 /// Numbers the lines of all regions without gaps, so that a model can keep a table indexed by line.
 ///
 /// The number is called a *slot*. Gaps between regions, however wide, have no slots; lines that two regions share (which
@@ -10,9 +12,28 @@ use pm_formats::trace::Region;
 pub(super) struct LineSpace {
     /// log2 of the line in bytes.
     shift: u32,
-    /// For each region: line number minus slot, modulo 2^64.
-    delta: Vec<u64>,
+    regions: Vec<Numbering>,
     slots: u64,
+}
+
+/// How the lines of a region are numbered.
+#[derive(Clone, Copy, Debug, Default)]
+struct Numbering {
+    /// First byte address.
+    base: u64,
+    /// Line number minus slot, modulo 2^64.
+    delta: u64,
+}
+
+impl Numbering {
+    /// Slots of the first and the last line of a record. One of length zero lies in the line of its offset.
+    #[inline]
+    fn ends(self, shift: u32, offset: u64, len: u32) -> (u32, u32) {
+        let first = self.base + offset;
+        let last = first + u64::from(len.max(1) - 1);
+        let slot = |address: u64| (address >> shift).wrapping_sub(self.delta) as u32;
+        (slot(first), slot(last))
+    }
 }
 
 impl LineSpace {
@@ -22,20 +43,20 @@ impl LineSpace {
         let mut by_base: Vec<usize> = (0..regions.len()).filter(|&r| regions[r].size > 0).collect();
         by_base.sort_by_key(|&r| regions[r].base);
 
-        let mut delta = vec![0; regions.len()];
-        let (mut slots, mut here, mut previous) = (0_u64, 0_u64, None);
+        let mut numberings: Vec<Numbering> = regions.iter().map(|r| Numbering { base: r.base, delta: 0 }).collect();
+        let (mut slots, mut delta, mut previous) = (0_u64, 0_u64, None);
         for r in by_base {
             let first = regions[r].base >> shift;
             let last = (regions[r].base + (regions[r].size - 1)) >> shift;
             if previous.is_none_or(|p| first > p) {
-                here = first.wrapping_sub(slots);
+                delta = first.wrapping_sub(slots);
             }
             // Slots of a shared line, or of a region within another, are already there.
-            slots = slots.max(last.wrapping_sub(here) + 1);
+            slots = slots.max(last.wrapping_sub(delta) + 1);
             previous = previous.max(Some(last));
-            delta[r] = here;
+            numberings[r].delta = delta;
         }
-        Self { shift, delta, slots }
+        Self { shift, regions: numberings, slots }
     }
 
     /// Number of slots.
@@ -43,137 +64,128 @@ impl LineSpace {
         self.slots
     }
 
-    /// The slot of the line at a byte address of a region.
-    #[inline]
-    fn slot(&self, region: u16, address: u64) -> u32 {
-        (address >> self.shift).wrapping_sub(self.delta[region as usize]) as u32
-    }
-
     /// The line number (byte address / line bytes) of a slot that an access to `region` touched.
     #[inline]
-    pub(super) fn line(&self, region: u16, slot: u32) -> u64 {
-        u64::from(slot).wrapping_add(self.delta[region as usize])
+    pub(super) fn line(&self, region: usize, slot: u32) -> u64 {
+        u64::from(slot).wrapping_add(self.regions[region].delta)
     }
 }
 
-/// One access of the trace, its address worked out.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Record {
-    /// Region base plus offset.
-    pub(super) address: u64,
-    pub(super) len: u32,
-    pub(super) region: u16,
-    pub(super) kind: pm_formats::trace::AccessKind,
+/// Which records are already split into line accesses.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cursor {
+    records: usize,
+    /// Lines of the next record.
+    lines: u32,
 }
 
-/// What a line access is besides its slot: the region, and whether the line turns dirty.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tag(u32);
-
-impl Tag {
-    fn new(record: &Record) -> Self {
-        let writes = record.kind != pm_formats::trace::AccessKind::Read;
-        Self(u32::from(record.region) << 1 | u32::from(writes))
-    }
-
-    /// The region accessed.
-    #[inline]
-    pub(super) fn region(self) -> u16 {
-        (self.0 >> 1) as u16
-    }
-
-    /// Whether the access is a write or a read-modify-write.
-    #[inline]
-    pub(super) fn writes(self) -> bool {
-        self.0 & 1 != 0
-    }
-}
-
-/// Records still to be split into line accesses.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rest<'a> {
-    records: &'a [Record],
-    /// Lines of the first record that are done.
-    lines_taken: u32,
-}
-
-impl<'a> From<&'a [Record]> for Rest<'a> {
-    fn from(records: &'a [Record]) -> Self {
-        Self { records, lines_taken: 0 }
-    }
-}
-
-/// How many lines of a record longer than a line are split off at a time. At least 2.
-const MAX_LONG: usize = 4096;
+/// How many line accesses there are in a chunk, roughly, before a record that spans many lines has to wait or is cut.
+const LONG_CHUNK: usize = 16384;
 
 /// The line accesses of a stretch of the trace.
 ///
 /// A line access that repeats the one before in every respect is left out (one in seven in a tree walk): it hits, and
 /// changes neither recency, nor order of arrival, nor reference bits, nor dirtiness. A policy that counts uses would need
-/// it. The caller drops no line access from its *counts*: [`accesses`](LineChunk::accesses) has them all.
-#[derive(Debug)]
+/// it. It is left out of no *count*: [`accesses`](LineChunk::accesses) has them all.
+#[derive(Debug, Default)]
 pub(super) struct LineChunk {
-    /// Kept apart from the tags: reads that hit need no tag.
     slots: Vec<u32>,
+    /// The tag of each slot, or one tag for all.
     tags: Vec<Tag>,
+    /// Picks the tag of a slot: all bits set, or none if one tag is for all. Most chunks of most traces read one region.
+    tag_mask: usize,
     len: usize,
     accesses: u64,
     writes: bool,
 }
 
+/// Not a slot: there are fewer (`MAX_LINES` of the simulation).
+const NO_SLOT: u32 = u32::MAX;
+
 impl LineChunk {
-    pub(super) fn new() -> Self {
-        Self { slots: Vec::new(), tags: Vec::new(), len: 0, accesses: 0, writes: false }
-    }
-
-    /// Replaces the content by line accesses from the front of `rest` and takes them away from it: of all records, unless
-    /// some are so long that they would make a chunk without bounds. False if there are none left.
-    pub(super) fn split(&mut self, space: &LineSpace, rest: &mut Rest) -> bool {
-        (self.len, self.accesses, self.writes) = (0, 0, false);
-        // Two places for each record, since the second is written before it is known to be needed.
-        self.reserve(2 * rest.records.len() + MAX_LONG);
-        let (slots, tags) = (&mut self.slots[..], &mut self.tags[..]);
-        // Slot and tag of the line access before; no tag has all bits set.
-        let mut before = (0, Tag(u32::MAX));
-        let (mut len, mut accesses, mut writes, mut taken) = (0, 0, 0, 0);
-        for record in rest.records {
-            let tag = Tag::new(record);
-            let first = space.slot(record.region, record.address);
-            let last = space.slot(record.region, record.address + u64::from(record.len.max(1) - 1));
-            writes |= tag.0;
-            if last.wrapping_sub(first) > 1 {
-                // Longer than a line: as far as it goes within this chunk, which ends here.
-                let from = first + rest.lines_taken;
-                let to = last.min(from + (MAX_LONG as u32 - 1));
-                for slot in from..=to {
-                    (slots[len], tags[len]) = (slot, tag);
-                    len += 1;
-                }
-                accesses += u64::from(to - from) + 1;
-                rest.lines_taken = if to == last { 0 } else { to - first + 1 };
-                taken += usize::from(to == last);
-                break;
+    /// Replaces the content by the line accesses of `batch` from `cursor` on, and moves that on: past all records unless
+    /// some are so long that they would make a chunk without bounds. False if no records are left.
+    pub(super) fn split(&mut self, space: &LineSpace, batch: &Batch, cursor: &mut Cursor) -> bool {
+        if cursor.records == batch.shapes.len() {
+            return false;
+        }
+        let short = match batch.common {
+            Some(shape) => {
+                self.writes = shape.tag().writes();
+                self.tags.clear();
+                self.tags.push(shape.tag());
+                self.tag_mask = 0;
+                self.pack::<false>(space, batch, shape)
             }
-            // Which of the two to keep depends on the data, so it is arithmetic and not a branch.
-            let spans = usize::from(first != last);
-            (slots[len], tags[len]) = (first, tag);
-            len += usize::from((first, tag) != before);
-            (slots[len], tags[len]) = (last, tag);
-            len += spans;
-            accesses += 1 + spans as u64;
-            before = (last, tag);
-            taken += 1;
+            None => {
+                self.writes = batch.shapes.iter().fold(false, |any, shape| any | shape.tag().writes());
+                self.tags.resize(self.tags.len().max(2 * batch.shapes.len()), Tag::default());
+                self.tag_mask = usize::MAX;
+                self.pack::<true>(space, batch, Shape::default())
+            }
+        };
+        if short {
+            cursor.records = batch.shapes.len();
+        } else {
+            self.split_long(space, batch, cursor);
         }
-        rest.records = &rest.records[taken..];
-        (self.len, self.accesses, self.writes) = (len, accesses, writes & 1 != 0);
-        accesses > 0
+        true
     }
 
-    fn reserve(&mut self, len: usize) {
-        if self.slots.len() < len {
-            self.slots.resize(len, 0);
-            self.tags.resize(len, Tag(0));
+    /// The line accesses of all records, whose shapes are `MIXED` or all `common`; false if one spans more than two lines.
+    fn pack<const MIXED: bool>(&mut self, space: &LineSpace, batch: &Batch, common: Shape) -> bool {
+        let records = batch.shapes.len();
+        self.slots.resize(self.slots.len().max(2 * records), 0);
+        let slots = &mut self.slots[..2 * records];
+        let tags = &mut self.tags[..];
+        let numbering = if MIXED { Numbering::default() } else { space.regions[common.tag().region()] };
+        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.tag()), 0, 0);
+        for (&offset, &shape) in batch.offsets.iter().zip(batch.shapes) {
+            let shape = if MIXED { shape } else { common };
+            let tag = shape.tag();
+            let numbering = if MIXED { space.regions[tag.region()] } else { numbering };
+            let (first, last) = numbering.ends(space.shift, offset, shape.len());
+            // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
+            // where the next one goes, and the place is taken or not.
+            slots[len] = first;
+            if MIXED {
+                tags[len] = tag;
+            }
+            len += usize::from(first != before.0 || (MIXED && tag != before.1));
+            slots[len] = last;
+            if MIXED {
+                tags[len] = tag;
+            }
+            len += usize::from(last != first);
+            before = (last, tag);
+            extra += u64::from(last - first);
+            most |= last - first;
         }
+        (self.len, self.accesses) = (len, records as u64 + extra);
+        most <= 1
+    }
+
+    /// The line accesses of records of any length, until the chunk is full.
+    #[cold]
+    fn split_long(&mut self, space: &LineSpace, batch: &Batch, cursor: &mut Cursor) {
+        self.slots.clear();
+        self.tags.clear();
+        self.tag_mask = usize::MAX;
+        while cursor.records < batch.shapes.len() && self.slots.len() < LONG_CHUNK {
+            let at = cursor.records;
+            let (shape, tag) = (batch.shapes[at], batch.shapes[at].tag());
+            let (first, last) = space.regions[tag.region()].ends(space.shift, batch.offsets[at], shape.len());
+            let from = first + cursor.lines;
+            let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
+            self.slots.extend(from..=to);
+            self.tags.resize(self.slots.len(), tag);
+            *cursor = match to == last {
+                true => Cursor { records: at + 1, lines: 0 },
+                false => Cursor { records: at, lines: to - first + 1 },
+            };
+        }
+        self.len = self.slots.len();
+        self.accesses = self.len as u64;
     }
 
     /// Slots of the line accesses, immediate repeats left out.
@@ -181,9 +193,10 @@ impl LineChunk {
         &self.slots[..self.len]
     }
 
-    /// Tags of the same line accesses.
-    pub(super) fn tags(&self) -> &[Tag] {
-        &self.tags[..self.len]
+    /// The tag of the line access at an index of [`slots`](LineChunk::slots).
+    #[inline]
+    pub(super) fn tag(&self, index: usize) -> Tag {
+        self.tags[index & self.tag_mask]
     }
 
     /// Number of line accesses, immediate repeats included.
@@ -191,7 +204,7 @@ impl LineChunk {
         self.accesses
     }
 
-    /// Whether any of them writes.
+    /// Whether any of the records writes.
     pub(super) fn writes(&self) -> bool {
         self.writes
     }
@@ -199,25 +212,36 @@ impl LineChunk {
 
 #[cfg(test)]
 mod tests {
-    use pm_formats::trace::{AccessKind, Coding};
+    use pm_formats::trace::{Access, AccessKind, Coding};
 
-    use super::*;
+    use super::{
+        super::records::{CHUNK, Records},
+        *,
+    };
 
     fn region(base: u64, size: u64) -> Region {
         Region { name: String::new(), base, size, record_size: 1, coding: Coding::Records }
     }
 
-    fn slots(space: &LineSpace, records: &[(u64, u32)]) -> (Vec<u32>, u64) {
-        let kind = AccessKind::Read;
-        let record = |&(address, len)| Record { address, len, region: 0, kind };
-        let records: Vec<Record> = records.iter().map(record).collect();
-        let (mut chunk, mut rest) = (LineChunk::new(), Rest::from(&records[..]));
-        let (mut slots, mut accesses) = (Vec::new(), 0);
-        while chunk.split(space, &mut rest) {
-            slots.extend_from_slice(chunk.slots());
-            accesses += chunk.accesses();
+    /// Slots, each with whether it is written, and the number of line accesses.
+    fn split(space: &LineSpace, accesses: &[(u64, u32, AccessKind)]) -> (Vec<(u32, bool)>, u64) {
+        let mut records = Records::new(CHUNK);
+        for &(offset, len, kind) in accesses {
+            assert!(records.push(&Access { kind, region: 0, len, offset }));
         }
-        (slots, accesses)
+        let (mut chunk, mut cursor) = (LineChunk::default(), Cursor::default());
+        let (mut slots, mut number) = (Vec::new(), 0);
+        while chunk.split(space, &records.batch(), &mut cursor) {
+            slots.extend(chunk.slots().iter().enumerate().map(|(i, &slot)| (slot, chunk.tag(i).writes())));
+            number += chunk.accesses();
+        }
+        (slots, number)
+    }
+
+    fn reads(space: &LineSpace, accesses: &[(u64, u32)]) -> (Vec<u32>, u64) {
+        let accesses: Vec<_> = accesses.iter().map(|&(offset, len)| (offset, len, AccessKind::Read)).collect();
+        let (slots, number) = split(space, &accesses);
+        (slots.into_iter().map(|(slot, _)| slot).collect(), number)
     }
 
     #[test]
@@ -225,7 +249,8 @@ mod tests {
         let regions = [region(1 << 60, 4096), region(0, 100), region(u64::MAX - 4095, 4096), region(8192, 0)];
         let space = LineSpace::new(&regions, 128);
         assert_eq!(space.slots(), 32 + 1 + 32);
-        assert_eq!((space.slot(1, 0), space.slot(0, 1 << 60), space.slot(2, u64::MAX)), (0, 1, 64));
+        let ends = |r: usize, offset, len| space.regions[r].ends(7, offset, len);
+        assert_eq!((ends(1, 0, 100), ends(0, 0, 4096), ends(2, 4095, 1)), ((0, 0), (1, 32), (64, 64)));
         assert_eq!((space.line(1, 0), space.line(0, 1), space.line(2, 64)), (0, 1 << 53, u64::MAX >> 7));
     }
 
@@ -234,18 +259,33 @@ mod tests {
         let regions = [region(4096, 4096), region(8192, 10), region(12288, 10_000)];
         let space = LineSpace::new(&regions, 16384);
         assert_eq!(space.slots(), 2);
-        assert_eq!((space.slot(0, 4096), space.slot(1, 8192), space.slot(2, 16384)), (0, 0, 1));
+        let ends = |r: usize, offset, len| space.regions[r].ends(14, offset, len);
+        assert_eq!((ends(0, 0, 1), ends(1, 9, 1), ends(2, 0, 10_000)), ((0, 0), (0, 0), (0, 1)));
     }
 
     #[test]
     fn records_are_split_where_lines_end() {
         let space = LineSpace::new(&[region(0, 1 << 20)], 16);
-        assert_eq!(slots(&space, &[(0, 16), (16, 17)]), (vec![0, 1, 2], 3));
-        assert_eq!(slots(&space, &[(15, 1), (15, 2)]), (vec![0, 1], 3), "the second begins with a repeat");
-        assert_eq!(slots(&space, &[(8, 80), (80, 1), (0, 0)]), (vec![0, 1, 2, 3, 4, 5, 5, 0], 8));
-        let (long, accesses) = slots(&space, &[(0, 1 << 20), (0, 4), (8, (1 << 20) - 8)]);
-        assert_eq!((long.len(), accesses), ((2 << 16) + 1, (2 << 16) + 1));
-        assert!(long[..1 << 16].iter().copied().eq(0..1 << 16) && long[(1 << 16) + 1..].iter().copied().eq(0..1 << 16));
-        assert_eq!(slots(&space, &[]), (vec![], 0));
+        assert_eq!(reads(&space, &[(0, 16), (16, 16), (31, 1)]), (vec![0, 1], 3), "the last repeats the one before");
+        assert_eq!(reads(&space, &[(0, 16), (16, 17)]), (vec![0, 1, 2], 3));
+        assert_eq!(reads(&space, &[(15, 1), (15, 2)]), (vec![0, 1], 3), "the second begins with a repeat");
+        assert_eq!(reads(&space, &[(8, 80), (81, 1), (0, 0)]), (vec![0, 1, 2, 3, 4, 5, 5, 0], 8));
+        assert_eq!(reads(&space, &[]), (vec![], 0));
+    }
+
+    #[test]
+    fn a_read_and_a_write_are_no_repeats_of_one_another() {
+        let space = LineSpace::new(&[region(0, 1 << 20)], 16);
+        let (read, write) = ((0, 4, AccessKind::Read), (4, 4, AccessKind::Write));
+        let expected = vec![(0, false), (0, true), (0, false)];
+        assert_eq!(split(&space, &[read, read, write, write, read]), (expected, 5));
+    }
+
+    #[test]
+    fn records_of_any_length_come_in_chunks_of_bounded_length() {
+        let space = LineSpace::new(&[region(0, 1 << 20)], 16);
+        let (slots, accesses) = reads(&space, &[(0, 1 << 20), (0, 4), (8, (1 << 20) - 8)]);
+        assert_eq!(accesses, (2 << 16) + 1);
+        assert!(slots.into_iter().eq((0..1 << 16).chain([0]).chain(0..1 << 16)));
     }
 }

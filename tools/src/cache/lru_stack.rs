@@ -10,8 +10,8 @@
 //! oldest line in it; only a miss has to find out which line that is. The trace itself is the list of candidates: an entry
 //! of it whose time is still its line's last use stands for that line, any other is dead. The candidates of a level form a
 //! queue in order of time; those of the first level are taken from the chunk in hand, live ones only, when a miss runs out
-//! of them and at the end of the chunk. Every access is looked at once more there, without a branch, which together with
-//! the cheap hit is less than half the work of a linked list where most accesses hit.
+//! of them and at the end of the chunk. Every access is looked at once more there, but without a branch, and by then most
+//! uses are dead and leave nothing to do.
 //!
 //! One stack also beats one simulator for each size: the seven in ten accesses that hit the smallest cache do nothing for
 //! the larger ones, while separate simulators would look each of them up again (`cargo bench --bench cache` has both).
@@ -117,6 +117,37 @@ struct Level {
     queue: Queue,
 }
 
+impl Level {
+    /// One line more: the oldest has to leave if the level is full. What it holds is all in its queue.
+    #[inline]
+    fn pass_down(&mut self, last: &LastUse) -> Option<Use> {
+        if self.lines < self.capacity {
+            self.lines += 1;
+            return None;
+        }
+        let oldest = self.queue.pop(last)?;
+        self.tail = oldest.time + 1;
+        Some(oldest)
+    }
+
+    /// The same for the first level, part of whose lines are in what is pending before index `now`.
+    #[inline]
+    fn admit(&mut self, pending: &mut Pending, now: usize, last: &LastUse) -> Option<Use> {
+        if self.lines < self.capacity {
+            self.lines += 1;
+            return None;
+        }
+        loop {
+            if let Some(oldest) = self.queue.pop(last) {
+                self.tail = oldest.time + 1;
+                return Some(oldest);
+            }
+            // It is full, so one of its lines was last used in what is pending if none is queued.
+            pending.move_batch(&mut self.queue, now, last);
+        }
+    }
+}
+
 /// The part of the chunk in hand that no queue has seen yet.
 struct Pending<'a> {
     slots: &'a [u32],
@@ -130,6 +161,13 @@ struct Pending<'a> {
 const BATCH: usize = 64;
 
 impl Pending<'_> {
+    /// Moves the live ones of the next few uses before index `now` to the queue.
+    #[inline(never)]
+    fn move_batch(&mut self, queue: &mut Queue, now: usize, last: &LastUse) {
+        assert!(self.seen < now, "a full level has lines");
+        self.move_to(queue, now.min(self.seen + BATCH), last);
+    }
+
     /// Moves live uses before index `end` to the queue.
     #[inline]
     fn move_to(&mut self, queue: &mut Queue, end: usize, last: &LastUse) {
@@ -193,8 +231,11 @@ impl LruStack {
     }
 
     /// The loop over a chunk whose times fit below the horizon.
-    fn pass<const WRITES: bool>(&mut self, chunk: &LineChunk, counted: bool) {
-        let (slots, tags) = (chunk.slots(), chunk.tags());
+    ///
+    /// Whether there are writes, and whether there is one size only, is settled outside of the loop: that
+    /// makes the most common case, reads through one cache, a quarter faster.
+    fn pass<const WRITES: bool, const ONE_SIZE: bool>(&mut self, chunk: &LineChunk, counted: bool) {
+        let slots = chunk.slots();
         let start = self.now;
         let mut pending = Pending { slots, start, seen: 0 };
         let mut tail = self.levels[0].tail;
@@ -202,10 +243,15 @@ impl LruStack {
             let before = std::mem::replace(&mut self.last.0[slot as usize], start + i as u32);
             let mut depth = 0;
             if before < tail {
-                depth = depth_of(&self.levels, before);
-                make_room(&mut self.levels, depth, &mut pending, i, &self.last);
+                if ONE_SIZE {
+                    depth = 1;
+                    self.levels[0].admit(&mut pending, i, &self.last);
+                } else {
+                    depth = depth_of(&self.levels, before);
+                    make_room(&mut self.levels, depth, &mut pending, i, &self.last);
+                }
                 tail = self.levels[0].tail;
-                self.missed[depth * self.regions + usize::from(tags[i].region())] += u64::from(counted);
+                self.missed[depth * self.regions + chunk.tag(i).region()] += u64::from(counted);
                 self.compulsory += u64::from(counted && before == NEVER);
             }
             if WRITES {
@@ -213,7 +259,7 @@ impl LruStack {
                 // and a write dirty in all: `dirt` is the number of caches it is clean or absent in.
                 let dirt = &mut self.dirt[slot as usize];
                 *dirt = (*dirt).max(depth as u16);
-                if counted && tags[i].writes() {
+                if counted && chunk.tag(i).writes() {
                     self.dirtied[usize::from(*dirt)] += 1;
                     *dirt = 0;
                 }
@@ -251,27 +297,15 @@ fn depth_of(levels: &[Level], before: u32) -> usize {
 }
 
 /// Makes room in the first level for the access at index `now`: each level above `depth` passes its oldest line down.
-#[inline]
 fn make_room(levels: &mut [Level], depth: usize, pending: &mut Pending, now: usize, last: &LastUse) {
-    let mut from_above = None;
-    for (i, level) in levels[..depth].iter_mut().enumerate() {
-        if let Some(u) = from_above {
-            level.queue.push(u, last);
-        }
-        if level.lines < level.capacity {
-            level.lines += 1;
-            return;
-        }
-        let mut oldest = level.queue.pop(last);
-        // The first level is full, so one of its lines was last used in what is pending if none is queued.
-        while i == 0 && oldest.is_none() && pending.seen < now {
-            pending.move_to(&mut level.queue, now.min(pending.seen + BATCH), last);
-            oldest = level.queue.pop(last);
-        }
-        level.tail = oldest.map_or(level.tail, |u| u.time + 1);
-        from_above = oldest;
+    let Some((first, others)) = levels.split_first_mut() else { return };
+    let mut from_above = first.admit(pending, now, last);
+    for level in &mut others[..depth - 1] {
+        let Some(u) = from_above else { return };
+        level.queue.push(u, last);
+        from_above = level.pass_down(last);
     }
-    if let (Some(u), Some(level)) = (from_above, levels.get_mut(depth)) {
+    if let (Some(u), Some(level)) = (from_above, others.get_mut(depth - 1)) {
         level.queue.push(u, last);
     }
 }
@@ -285,10 +319,11 @@ impl CacheModel for LruStack {
             self.dirt = vec![self.levels.len() as u16; self.last.0.len()];
         }
         // A trace without writes, which most are, never looks at dirtiness.
-        if self.dirt.is_empty() {
-            self.pass::<false>(chunk, counted);
-        } else {
-            self.pass::<true>(chunk, counted);
+        match (self.dirt.is_empty(), self.levels.len() == 1) {
+            (true, true) => self.pass::<false, true>(chunk, counted),
+            (true, false) => self.pass::<false, false>(chunk, counted),
+            (false, true) => self.pass::<true, true>(chunk, counted),
+            (false, false) => self.pass::<true, false>(chunk, counted),
         }
     }
 
@@ -308,9 +343,9 @@ impl CacheModel for LruStack {
 
 #[cfg(test)]
 mod tests {
-    use pm_formats::trace::{AccessKind, Coding, lay_out};
+    use pm_formats::trace::{Access, AccessKind, Coding, lay_out};
 
-    use super::super::lines::{Record, Rest};
+    use super::super::{lines::Cursor, records::Records};
     use super::*;
 
     /// Runs pseudo-random accesses to 60 lines, one in five a write, through caches of 1, 4 and 30 lines.
@@ -319,18 +354,17 @@ mod tests {
         let space = LineSpace::new(&regions, 64);
         let mut stack = Box::new(LruStack::new(&space, 1, &[1, 4, 30]));
         stack.horizon = horizon;
-        let mut chunk = LineChunk::new();
+        let mut chunk = LineChunk::default();
         let mut state = 1_u32;
         for round in 0..500 {
-            let records: Vec<Record> = (0..40)
-                .map(|_| {
-                    state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                    let line = (state >> 16) % if round % 50 < 25 { 60 } else { 6 };
-                    let kind = if state >> 29 == 0 { AccessKind::Write } else { AccessKind::Read };
-                    Record { address: regions[0].base + u64::from(line) * 64, len: 4, region: 0, kind }
-                })
-                .collect();
-            chunk.split(&space, &mut Rest::from(&records[..]));
+            let mut records = Records::new(40);
+            for _ in 0..40 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let line = (state >> 16) % if round % 50 < 25 { 60 } else { 6 };
+                let kind = if state >> 29 == 0 { AccessKind::Write } else { AccessKind::Read };
+                records.push(&Access { kind, region: 0, len: 4, offset: u64::from(line) * 64 });
+            }
+            chunk.split(&space, &records.batch(), &mut Cursor::default());
             stack.run(&space, &chunk, round != 7);
         }
         stack.finish()

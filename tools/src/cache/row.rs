@@ -1,5 +1,7 @@
 //! What a simulation found out, for one cache.
 
+use pm_formats::trace::AccessKind;
+
 use super::CacheConfig;
 
 /// Record accesses of a region as the trace has them, before any cache. All counts leave warm-up out.
@@ -18,6 +20,21 @@ pub struct RecordCounts {
 }
 
 impl RecordCounts {
+    /// Adds `number` records of one kind with `bytes` bytes together.
+    pub(super) fn add_records(&mut self, kind: AccessKind, number: u64, bytes: u64) {
+        match kind {
+            AccessKind::Read => self.reads += number,
+            AccessKind::Write => self.writes += number,
+            AccessKind::ReadModifyWrite => self.read_modify_writes += number,
+        }
+        if kind != AccessKind::Write {
+            self.bytes_read += bytes;
+        }
+        if kind != AccessKind::Read {
+            self.bytes_written += bytes;
+        }
+    }
+
     /// Adds another region's counts.
     pub(super) fn add(&mut self, other: &Self) {
         self.reads += other.reads;

@@ -85,14 +85,15 @@ impl<R: Replacement> SetAssociative<R> {
 impl<R: Replacement> CacheModel for SetAssociative<R> {
     fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
         let sets = self.filled.len() as u64;
-        for (&slot, tag) in chunk.slots().iter().zip(chunk.tags()) {
+        for (i, &slot) in chunk.slots().iter().enumerate() {
+            let tag = chunk.tag(i);
             let place = self.places[slot as usize];
             let frame = if let Some(frame) = place.frame() {
                 self.replacement.hit(frame);
                 frame
             } else {
                 let region = tag.region();
-                self.tally.fetches[usize::from(region)] += u64::from(counted);
+                self.tally.fetches[region] += u64::from(counted);
                 self.tally.compulsory += u64::from(counted && place == Place::NEVER);
                 self.fetch(slot, (space.line(region, slot) & (sets - 1)) as usize)
             };

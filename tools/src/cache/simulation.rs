@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
+use pm_formats::trace::{Access, Region, TraceSink};
 use thiserror::Error;
 
 use super::{
     CacheConfig, Policy, RecordCounts, Row, Ways,
-    lines::{LineChunk, LineSpace, Record, Rest},
+    lines::{Cursor, LineChunk, LineSpace},
     lru_stack::{LruStack, MAX_SIZES},
     model::{CacheModel, Tally},
+    records::{Batch, CHUNK, Records},
     replacement::Lru,
     set_associative::{MAX_FRAMES, SetAssociative},
     uncached::Uncached,
@@ -34,26 +35,22 @@ use super::{
 /// assert_eq!((rows[0].accesses, rows[0].fetches, rows[0].bytes_fetched), (5, 2, 256));
 /// assert_eq!((rows[1].fetches, rows[1].bytes_fetched), (4, 80));
 /// ```
+///
+/// # Panics
+///
+/// Whoever replays a trace has checked that each access lies within its region. One that does not ends in a panic, with
+/// one of the accesses after it or at the end, rather than in a count of the wrong line.
 pub struct Simulation {
-    regions: Vec<Bounds>,
+    regions: Vec<Region>,
     /// Caches of one line size share its line accesses.
     stages: Vec<Stage>,
     configs: Vec<CacheConfig>,
-    /// Bytes of all regions; wider than a sum of 2^16 sizes can get.
-    region_bytes: u128,
     /// Accesses not yet simulated, all of one kind of block.
-    records: Vec<Record>,
+    records: Records,
     warm_up: bool,
     queries: u64,
     searches: u64,
     record_counts: Vec<RecordCounts>,
-}
-
-/// What the simulation needs to know of a region.
-#[derive(Clone, Copy)]
-struct Bounds {
-    base: u64,
-    size: u64,
 }
 
 /// The line accesses of one line size and the caches they run through.
@@ -97,19 +94,16 @@ pub enum SimulationError {
     TooManyFrames(CacheConfig),
 }
 
-/// Lines of all regions that can be simulated: their numbers and a few marks fit 32 bits.
-const MAX_LINES: u64 = u32::MAX as u64 - 2;
-
-/// Accesses simulated at a time: few enough for them and their line accesses to stay in a core's own cache, enough that
-/// most uses are dead when the LRU stack looks back at them.
-const CHUNK: usize = 4096;
+/// Lines of all regions that can be simulated: half of what 32 bits tell apart, so that the times of the LRU stack, one
+/// for each line at least, leave room for time to pass.
+const MAX_LINES: u64 = 1 << 31;
 
 impl Simulation {
     /// Prepares to simulate `configs` on a trace of these regions.
     ///
     /// # Errors
     ///
-    /// If the regions have more than about 2^32 lines, or reach past the last address, or a set-associative cache has more
+    /// If the regions have more than 2^31 lines, or reach past the last address, or a set-associative cache has more
     /// than about 2^32 lines.
     pub fn new(regions: &[Region], configs: &[CacheConfig]) -> Result<Self, SimulationError> {
         Self::with_chunk(regions, configs, CHUNK)
@@ -133,11 +127,10 @@ impl Simulation {
         }
         let stage = |(line_bytes, members): (u32, Vec<usize>)| Stage::new(line_bytes, &members, configs, regions);
         Ok(Self {
-            regions: regions.iter().map(|r| Bounds { base: r.base, size: r.size }).collect(),
+            regions: regions.to_vec(),
             stages: by_line.into_iter().map(stage).collect::<Result<_, _>>()?,
             configs: configs.to_vec(),
-            region_bytes: regions.iter().map(|r| u128::from(r.size)).sum(),
-            records: Vec::with_capacity(chunk),
+            records: Records::new(chunk),
             warm_up: false,
             queries: 0,
             searches: 0,
@@ -148,16 +141,22 @@ impl Simulation {
     /// Simulates what is waiting.
     #[inline(never)]
     fn flush(&mut self) {
+        let batch = self.records.batch();
+        assert!(batch.are_within(&self.regions), "the trace's reader let through an access outside of its region");
         if !self.warm_up {
-            count(&self.records, &mut self.record_counts);
+            batch.count(&mut self.record_counts);
         }
         for stage in &mut self.stages {
-            stage.run(&self.records, !self.warm_up);
+            stage.run(&batch, !self.warm_up);
         }
         self.records.clear();
     }
 
     /// Ends the simulation: one row for each configuration, in the order they were given.
+    ///
+    /// # Panics
+    ///
+    /// As an access may: see [`Simulation`].
     #[must_use]
     pub fn finish(mut self) -> Vec<Row> {
         self.flush();
@@ -174,6 +173,13 @@ impl Simulation {
             }
         }
         rows.into_iter().flatten().collect()
+    }
+
+    /// Bytes of all regions over bytes of a line, rounded up.
+    fn blocks(&self, line: u64) -> u64 {
+        // 2^16 sizes may add up to more than 64 bits; their lines were checked to be few.
+        let bytes: u128 = self.regions.iter().map(|r| u128::from(r.size)).sum();
+        bytes.div_ceil(line.into()) as u64
     }
 
     fn row(&self, config: CacheConfig, accesses: u64, records: RecordCounts, tally: &Tally) -> Row {
@@ -195,18 +201,10 @@ impl Simulation {
             bytes_fetched: if cached { fetches * line } else { records.bytes_read },
             bytes_written_back: if cached { tally.write_backs * line } else { records.bytes_written },
             compulsory: tally.compulsory,
-            // Fits: no more than the lines of the regions, which were checked to be few.
-            blocks: self.region_bytes.div_ceil(line.into()) as u64,
+            blocks: self.blocks(line),
             region_fetches,
         }
     }
-}
-
-/// An access that a reader should have refused.
-#[cold]
-#[inline(never)]
-fn outside(access: Access) -> ! {
-    panic!("the trace's reader let through an access outside of its region: {access:?}")
 }
 
 impl TraceSink for Simulation {
@@ -224,40 +222,11 @@ impl TraceSink for Simulation {
         }
     }
 
-    /// # Panics
-    ///
-    /// If the access is not within its region: whoever replays a trace has checked that.
     #[inline]
     fn access(&mut self, access: Access) {
-        let Access { kind, region, len, offset } = access;
-        let Some(&Bounds { base, size }) = self.regions.get(usize::from(region)) else { outside(access) };
-        if offset >= size || u64::from(len) > size - offset {
-            outside(access);
-        }
-        if self.records.len() == self.records.capacity() {
+        if !self.records.push(&access) {
             self.flush();
-        }
-        self.records.push(Record { address: base + offset, len, region, kind });
-    }
-}
-
-/// Adds up records by region and kind.
-fn count(records: &[Record], counts: &mut [RecordCounts]) {
-    // Neighbours are mostly alike: summed in registers, not in memory.
-    for run in records.chunk_by(|a, b| a.region == b.region && a.kind == b.kind) {
-        let counts = &mut counts[usize::from(run[0].region)];
-        let number = run.len() as u64;
-        let bytes: u64 = run.iter().map(|record| u64::from(record.len)).sum();
-        match run[0].kind {
-            AccessKind::Read => counts.reads += number,
-            AccessKind::Write => counts.writes += number,
-            AccessKind::ReadModifyWrite => counts.read_modify_writes += number,
-        }
-        if run[0].kind != AccessKind::Write {
-            counts.bytes_read += bytes;
-        }
-        if run[0].kind != AccessKind::Read {
-            counts.bytes_written += bytes;
+            self.records.push(&access);
         }
     }
 }
@@ -307,12 +276,12 @@ impl Stage {
                 .flat_map(|(tally, (_, configs))| configs.iter().map(move |&config| CacheOfModel { config, tally }));
             models.push((Box::new(LruStack::new(&space, regions.len(), &lines)), caches.collect()));
         }
-        Ok(Self { space, chunk: LineChunk::new(), accesses: 0, models })
+        Ok(Self { space, chunk: LineChunk::default(), accesses: 0, models })
     }
 
-    fn run(&mut self, records: &[Record], counted: bool) {
-        let mut rest = Rest::from(records);
-        while self.chunk.split(&self.space, &mut rest) {
+    fn run(&mut self, batch: &Batch, counted: bool) {
+        let mut cursor = Cursor::default();
+        while self.chunk.split(&self.space, batch, &mut cursor) {
             if counted {
                 self.accesses += self.chunk.accesses();
             }

@@ -371,4 +371,5 @@ fn an_access_outside_of_its_region_is_not_taken_for_another_line() {
     let regions = lay_out([("a".to_owned(), 100, 20, Coding::Records)]);
     let mut simulation = Simulation::new(&regions, &["none".parse().unwrap()]).unwrap();
     simulation.access(Access::read(0, 90, 20));
+    let _ = simulation.finish();
 }

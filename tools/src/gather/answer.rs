@@ -3,7 +3,7 @@
 use super::{Outcome, RadianceEstimate};
 use crate::film::{Film, Overflow};
 use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
-use pm_formats::trace::{BlockEncoder, Region};
+use pm_formats::trace::{BlockEncoder, Coding, Region};
 use pm_formats::{Block, Header, Query, Tally, decode_checked};
 use std::ops::AddAssign;
 
@@ -17,6 +17,8 @@ pub struct Answerer<'a, M> {
     pub header: &'a Header,
     /// Regions of the trace, if one is wanted.
     pub regions: Option<&'a [Region]>,
+    /// Do second touches of a record count as reads?
+    pub reread: bool,
     /// How radiance is estimated, and a film that knows the picture's unit, if a picture is wanted.
     pub estimate: Option<(&'a RadianceEstimate<'a>, &'a Film)>,
 }
@@ -74,7 +76,10 @@ impl<M: PhotonMap> Answerer<'_, M> {
     pub fn answer(&self, block: &Block) -> Result<Answered, Fault> {
         let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
         let mut found = Nearest::new(self.search.k, 0.0);
-        let mut visits = Visits::default();
+        // Where the coding of walks implies the second touches they need not be remembered.
+        let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { .. });
+        let implied = self.reread && self.regions.is_some_and(|regions| regions.iter().any(walk));
+        let mut visits = Visits::with_rereads(self.reread && !implied);
         let mut scratch = vec![];
         let mut encoder = self.regions.map(BlockEncoder::new);
         let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
@@ -82,7 +87,7 @@ impl<M: PhotonMap> Answerer<'_, M> {
         for query in &queries {
             visits.clear();
             counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
-            counts.accesses += visits.len() as u64;
+            counts.accesses += visits.len() as u64 + if implied { visits.rereads() } else { 0 };
             counts.short += u64::from(!found.is_full());
             if let Some(encoder) = &mut encoder {
                 encoder.begin(&[query.pixel]);

@@ -21,7 +21,7 @@ impl BruteForce {
 }
 
 impl PhotonMap for BruteForce {
-    fn regions(&self) -> Vec<Region> {
+    fn regions(&self, _: bool) -> Vec<Region> {
         let bytes = self.positions.len() as u64 * size_of::<Photon>() as u64;
         lay_out([("photons".into(), bytes, size_of::<Photon>() as u32, Coding::Records)])
     }

@@ -15,6 +15,18 @@ const MAX_DEPTH: usize = 32;
 pub struct KdTree {
     /// Node i at index i - 1.
     nodes: Vec<Node>,
+    /// Which record of the traced memory each node is; empty if node i is record i - 1.
+    places: Vec<u32>,
+}
+
+/// In which order the nodes lie in the traced memory. The tree, and the neighbours it finds, are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Layout {
+    /// Level by level: children of node i at 2i and 2i + 1, no pointers
+    #[default]
+    Heap,
+    /// Depth first: a node, its left subtree, its right subtree
+    Preorder,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -43,7 +55,7 @@ impl KdTree {
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub fn build(photons: &[Photon]) -> Result<Self, BuildError> {
+    pub fn build(photons: &[Photon], layout: Layout) -> Result<Self, BuildError> {
         check(photons)?;
         let mut rest: Vec<Node> =
             (0..).zip(photons).map(|(id, photon)| Node { position: photon.position, id_and_axis: id }).collect();
@@ -56,7 +68,17 @@ impl KdTree {
         }
         let mut nodes = vec![Node::default(); rest.len()];
         balance(&mut nodes, 1, &mut rest, cell);
-        Ok(Self { nodes })
+        let places = match layout {
+            Layout::Heap => vec![],
+            Layout::Preorder => preorder(nodes.len()),
+        };
+        Ok(Self { nodes, places })
+    }
+
+    /// Which record of the traced memory a node is.
+    #[inline(always)]
+    fn record(&self, node: usize) -> u32 {
+        self.places.get(node - 1).copied().unwrap_or((node - 1) as u32)
     }
 
     /// Split axis and photon id of each node, in the order of the traced memory.
@@ -74,6 +96,22 @@ fn left_size(n: usize) -> usize {
     let full = 1 << n.ilog2();
     let last = n - (full - 1);
     (full / 2 - 1) + last.min(full / 2)
+}
+
+/// The record that each node of a left-balanced tree is when nodes are laid out depth first.
+fn preorder(count: usize) -> Vec<u32> {
+    let mut places = vec![0; count];
+    // Subtrees yet to be placed, the next one last.
+    let mut subtrees = vec![1];
+    let mut next = 0;
+    while let Some(node) = subtrees.pop() {
+        if node <= count {
+            places[node - 1] = next;
+            next += 1;
+            subtrees.extend([2 * node + 1, 2 * node]);
+        }
+    }
+    places
 }
 
 fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f32; 3])) {
@@ -97,10 +135,11 @@ fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f
 }
 
 impl PhotonMap for KdTree {
-    fn regions(&self) -> Vec<Region> {
+    fn regions(&self, reread: bool) -> Vec<Region> {
         let record = size_of::<Photon>() as u32;
         let nodes = u32::try_from(self.nodes.len()).expect("checked when built");
-        lay_out([("kd nodes".into(), u64::from(nodes) * u64::from(record), record, Coding::HeapWalk { nodes })])
+        let coding = if self.places.is_empty() { Coding::HeapWalk { nodes, reread } } else { Coding::Records };
+        lay_out([("kd nodes".into(), u64::from(nodes) * u64::from(record), record, coding)])
     }
 
     fn len(&self) -> usize {
@@ -108,7 +147,8 @@ impl PhotonMap for KdTree {
     }
 
     /// Jensen's search: the child on the query's side first, then the other if the splitting plane lies within the
-    /// bound, then the node's own photon. A node is read once, when it is reached.
+    /// bound, then the node's own photon. A node is read when it is reached, and the inner ones are looked at again for
+    /// their own photon.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         let nodes = &self.nodes[..];
         let count = nodes.len();
@@ -122,7 +162,7 @@ impl PhotonMap for KdTree {
         let mut at = 1;
         loop {
             let node = nodes[at - 1];
-            eyes.read(0, (at - 1) as u32);
+            eyes.read(0, self.record(at));
             let left = 2 * at;
             if left <= count {
                 let axis = node.axis();
@@ -141,6 +181,7 @@ impl PhotonMap for KdTree {
                     at = far;
                     continue;
                 }
+                eyes.reread(0, self.record(at));
             }
             found.show(distance_squared(point, node.position), node.id());
             loop {
@@ -155,6 +196,7 @@ impl PhotonMap for KdTree {
                     break;
                 }
                 depth -= 1;
+                eyes.reread(0, self.record(parent as usize));
                 let node = nodes[parent as usize - 1];
                 found.show(distance_squared(point, node.position), node.id());
             }
@@ -165,6 +207,13 @@ impl PhotonMap for KdTree {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn preorder_places_a_node_before_its_left_subtree_before_its_right() {
+        // Six nodes: 1 (2 (4 5) 3 (6)).
+        assert_eq!(preorder(6), [0, 1, 4, 2, 3, 5]);
+        assert_eq!(preorder(0), [0; 0]);
+    }
 
     #[test]
     fn the_left_subtree_fills_the_last_level_from_the_left() {

@@ -4,6 +4,12 @@
 pub trait AccessObserver {
     /// Record number `record` of region number `region` is read as a whole.
     fn read(&mut self, region: u16, record: u32);
+
+    /// A record read before is looked at again, after all that lies below it.
+    #[inline(always)]
+    fn reread(&mut self, region: u16, record: u32) {
+        let _ = (region, record);
+    }
 }
 
 /// Sees nothing and costs nothing.
@@ -17,14 +23,30 @@ impl AccessObserver for Blind {
 /// Remembers the reads of one search.
 #[derive(Default)]
 pub struct Visits {
+    /// Do second touches count as reads?
+    log_rereads: bool,
+    rereads: u64,
     records: Vec<u32>,
     /// Region and end (in `records`) of each run of reads of one region.
     runs: Vec<(u16, usize)>,
 }
 
 impl Visits {
+    /// An observer that also remembers second touches, each as a read of its own.
+    #[must_use]
+    pub fn with_rereads(log_rereads: bool) -> Self {
+        Self { log_rereads, ..Self::default() }
+    }
+
+    /// Number of second touches, remembered or not.
+    #[must_use]
+    pub const fn rereads(&self) -> u64 {
+        self.rereads
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
+        self.rereads = 0;
         self.records.clear();
         self.runs.clear();
     }
@@ -59,6 +81,14 @@ impl AccessObserver for Visits {
         match self.runs.last_mut() {
             Some(run) if run.0 == region => run.1 = end,
             _ => self.runs.push((region, end)),
+        }
+    }
+
+    #[inline]
+    fn reread(&mut self, region: u16, record: u32) {
+        self.rereads += 1;
+        if self.log_rereads {
+            self.read(region, record);
         }
     }
 }

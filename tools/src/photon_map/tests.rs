@@ -59,7 +59,7 @@ fn query_points(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
 fn the_kd_tree_finds_what_brute_force_finds() {
     for (name, positions) in cases() {
         let photons = photons(positions.iter().copied());
-        let tree = KdTree::build(&photons).unwrap();
+        let tree = KdTree::build(&photons, Layout::Heap).unwrap();
         let oracle = BruteForce::build(&photons).unwrap();
         for k in [1, 2, 10, 100, 500, photons.len().max(1), photons.len() + 1] {
             for max_dist in [0.0, 1e-7, 0.05, 1.0, f32::INFINITY] {
@@ -78,7 +78,7 @@ fn the_kd_tree_finds_what_brute_force_finds() {
 fn the_start_radius_changes_reads_and_not_neighbours() {
     for (name, positions) in cases() {
         let photons = photons(positions.iter().copied());
-        let tree = KdTree::build(&photons).unwrap();
+        let tree = KdTree::build(&photons, Layout::Heap).unwrap();
         let mut found = Nearest::new(20, 0.0);
         let mut expected = Nearest::new(20, 0.0);
         for max_dist in [0.03, f32::INFINITY] {
@@ -100,7 +100,7 @@ fn the_start_radius_changes_reads_and_not_neighbours() {
 fn a_fitted_start_saves_reads() {
     let positions = random_points(20_000, |[x, y, _]| [x, 0.0, y]);
     let photons = photons(positions.iter().copied());
-    let tree = KdTree::build(&photons).unwrap();
+    let tree = KdTree::build(&photons, Layout::Heap).unwrap();
     let (plain, fitted) = (Search::new(100, f32::INFINITY), Search::new(100, f32::INFINITY).fit_start(&tree, &photons));
     let mut found = Nearest::new(100, 0.0);
     let (mut plain_reads, mut fitted_reads) = (0u64, 0u64);
@@ -114,7 +114,7 @@ fn a_fitted_start_saves_reads() {
 #[test]
 fn each_attempt_is_one_walk_from_the_root() {
     let photons = photons(random_points(300, |p| p));
-    let tree = KdTree::build(&photons).unwrap();
+    let tree = KdTree::build(&photons, Layout::Heap).unwrap();
     let search = Search { start: 1e-3, ..Search::new(50, f32::INFINITY) };
     let mut visits = Visits::default();
     let attempts = search.run(&tree, [0.5; 3], &mut Nearest::new(50, 0.0), &mut visits);
@@ -123,9 +123,32 @@ fn each_attempt_is_one_walk_from_the_root() {
 }
 
 #[test]
+fn layouts_change_places_and_nothing_else() {
+    let photons = photons(random_points(1000, |p| p));
+    let trees = [Layout::Heap, Layout::Preorder].map(|layout| KdTree::build(&photons, layout).unwrap());
+    let mut places: Vec<std::collections::BTreeMap<u32, u32>> = vec![];
+    for point in query_points(&[[0.5; 3]]) {
+        let runs = trees.each_ref().map(|tree| {
+            let (mut found, mut visits) = (Nearest::new(10, f32::INFINITY), Visits::default());
+            tree.nearest(point, &mut found, &mut visits);
+            (found.sorted(), visits.runs().flat_map(|(_, records)| records.to_vec()).collect::<Vec<_>>())
+        });
+        assert_eq!(runs[0].0, runs[1].0);
+        // The same walk, each node always at the same other place.
+        places.push(runs[0].1.iter().copied().zip(runs[1].1.iter().copied()).collect());
+        assert_eq!(runs[0].1.len(), runs[1].1.len());
+    }
+    let mut all = std::collections::BTreeMap::new();
+    for (heap, preorder) in places.into_iter().flatten() {
+        assert_eq!(*all.entry(heap).or_insert(preorder), preorder);
+    }
+    assert_eq!(all.values().collect::<std::collections::BTreeSet<_>>().len(), all.len());
+}
+
+#[test]
 fn every_photon_is_one_node_and_the_left_is_never_right() {
     let photons = photons(cases().into_iter().flat_map(|(_, positions)| positions));
-    let tree = KdTree::build(&photons).unwrap();
+    let tree = KdTree::build(&photons, Layout::Heap).unwrap();
     let nodes: Vec<_> = tree.nodes().collect();
     let ids: std::collections::BTreeSet<_> = nodes.iter().map(|&(_, id)| id).collect();
     assert_eq!(ids.len(), photons.len());
@@ -145,7 +168,7 @@ fn every_photon_is_one_node_and_the_left_is_never_right() {
 #[test]
 fn a_million_identical_photons_build_and_search() {
     let photons = photons(vec![[0.5; 3]; 1_000_000]);
-    let tree = KdTree::build(&photons).unwrap();
+    let tree = KdTree::build(&photons, Layout::Heap).unwrap();
     let mut found = Nearest::new(100, f32::INFINITY);
     tree.nearest([0.5, 0.5, 0.4], &mut found, &mut Blind);
     let expected: Vec<_> = (0..100).map(|id| (found.bound(), id)).collect();
@@ -156,7 +179,7 @@ fn a_million_identical_photons_build_and_search() {
 fn coordinates_that_cannot_be_compared_are_refused() {
     let mut list = photons(random_points(10, |p| p));
     list[7].position[1] = f32::NAN;
-    assert_eq!(KdTree::build(&list).err(), Some(BuildError::Coordinate(7)));
+    assert_eq!(KdTree::build(&list, Layout::Heap).err(), Some(BuildError::Coordinate(7)));
     list[3].position[0] = 1e19;
     assert_eq!(BruteForce::build(&list).err(), Some(BuildError::Coordinate(3)));
 }

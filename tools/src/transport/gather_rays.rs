@@ -25,6 +25,17 @@ pub struct GatherOptions {
     pub seed: u64,
     /// Is direct light wanted at all? It changes no query.
     pub direct: bool,
+    /// In which order the strata of a point are visited.
+    pub strata: Strata,
+}
+
+/// In which order the strata of a hemisphere are visited; the rays are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Strata {
+    /// Ring by ring: elevation outer, azimuth inner
+    Raster,
+    /// Another random order for each point
+    Shuffled,
 }
 
 /// Rays that were cast.
@@ -173,7 +184,7 @@ impl<'a> GatherRays<'a> {
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let GatherOptions { gathers, light_samples, seed, direct } = self.options;
+        let GatherOptions { gathers, light_samples, seed, direct, .. } = self.options;
         let point = &leaf.point;
         let reflectance = Vec3::from(self.stage.material(point).diffuse);
         if direct {
@@ -183,7 +194,15 @@ impl<'a> GatherRays<'a> {
         }
         // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
         let share = leaf.share * reflectance / gathers as f32;
-        for stratum in 0..gathers {
+        let mut strata: Vec<u32> = (0..gathers).collect();
+        if self.options.strata == Strata::Shuffled {
+            let key = |stratum: &u32| {
+                Random::new(&[seed, Purpose::StrataOrder as u64, pixel.into(), number.into(), (*stratum).into()])
+                    .next_u64()
+            };
+            strata.sort_by_cached_key(key);
+        }
+        for stratum in strata {
             counts.gather += 1;
             let sample = number * gathers + stratum;
             let random = &mut Random::new(&[seed, Purpose::GatherRay as u64, u64::from(pixel), u64::from(sample)]);

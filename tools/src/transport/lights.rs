@@ -1,7 +1,7 @@
 //! Lights: which triangle, and where on it.
 
 use super::Purpose;
-use super::sampling::{grid, triangle_point};
+use super::sampling::triangle_point;
 use super::surface::{Stage, SurfacePoint};
 use crate::random::Random;
 use crate::scene::Scene;
@@ -27,6 +27,10 @@ struct Light {
 pub(super) struct Chosen<'a> {
     light: &'a Light,
 }
+
+/// Inverse plastic number and its square: the steps of the R2 sequence (Roberts, *The Unreasonable Effectiveness of
+/// Quasirandom Sequences*, 2018).
+const PLASTIC_STEPS: (f64, f64) = (0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
 
 impl Lights {
     pub(super) fn new(scene: &Scene) -> Self {
@@ -66,7 +70,8 @@ impl Lights {
     /// Radiance that a diffuse point reflects of light that comes straight from the lights: the mean over `samples`
     /// shadow rays, without the point's reflectance.
     ///
-    /// Samples are strata of the total power, and of each light's area as far as their number allows.
+    /// Samples are strata of the total power; where they lie on the lights is a low-discrepancy sequence, shifted at
+    /// random so that each sample by itself is spread evenly.
     pub(super) fn irradiance(
         &self,
         stage: &Stage<'_>,
@@ -77,16 +82,12 @@ impl Lights {
         if self.is_empty() || samples == 0 {
             return Vec3::ZERO;
         }
-        let (rows, columns) = grid(samples);
+        let (shift_u, shift_v) = (random.unit(), random.unit());
         let mut sum = Vec3::ZERO;
         for sample in 0..samples {
             let chosen = self.choose((sample as f32 + random.unit()) / samples as f32);
-            // The sample number in another order, so that a light's share of the samples covers its area.
-            let (row, column) = (sample % rows, (sample / rows * 7 + sample) % columns);
-            let (u, v) = triangle_point(
-                (row as f32 + random.unit()) / rows as f32,
-                (column as f32 + random.unit()) / columns as f32,
-            );
+            let along = |step: f64, shift: f32| (f64::from(sample) * step + f64::from(shift)).fract() as f32;
+            let (u, v) = triangle_point(along(PLASTIC_STEPS.0, shift_u), along(PLASTIC_STEPS.1, shift_v));
             let (target, normal) = stage.point_before(chosen.light.triangle, u, v);
             let way = target - point.position;
             let cosine_here = way.dot(point.facing);

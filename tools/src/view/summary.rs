@@ -30,7 +30,10 @@ pub fn header(kind: Kind, header: &Header, output: &mut impl Write) -> io::Resul
     for region in &header.regions {
         let coding = match region.coding {
             Coding::Records => String::new(),
-            Coding::HeapWalk { nodes } => format!(", a tree of {} nodes", HumanCount(nodes.into())),
+            Coding::HeapWalk { nodes, reread } => {
+                let twice = if reread { ", inner nodes read twice" } else { "" };
+                format!(", a tree of {} nodes{twice}", HumanCount(nodes.into()))
+            }
         };
         let place = format!("{:#x} to {:#x}", region.base, region.base + region.size);
         line("region", format!("{}: {place}, records of {} bytes{coding}", region.name, region.record_size))?;
