@@ -41,7 +41,9 @@ fn cut_everywhere(kind: Kind) {
     let (folder, stream) = (folder(), specimen(kind));
     let _ = folder.feed(consumer(kind), &stream).ok();
     for len in 0..stream.len() {
-        refused(&folder.feed(consumer(kind), &stream[..len]), &format!("cut to {len} of {} bytes", stream.len()));
+        for program in [consumer(kind), "pm-view --check"] {
+            refused(&folder.feed(program, &stream[..len]), &format!("cut to {len} of {} bytes", stream.len()));
+        }
     }
 }
 

@@ -6,12 +6,13 @@ use pm_formats::{Query, Tally};
 use pm_tools::image::Picture;
 
 /// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.
-const GENERATIVE: [&str; 5] = [
+const GENERATIVE: [&str; 6] = [
     "--order scanline",
     "--order tiled --tile 1",
     "--order tiled --tile 3",
     "--order tiled",
     "--order tiled --tile 99",
+    "--strata shuffled",
 ];
 
 /// Orders that `pm-reorder` brings queries into.
@@ -104,7 +105,7 @@ fn orders_are_orders() {
         records::<Query>(&folder.read(name)).iter().map(|query| (query.pixel, query.sample)).collect()
     };
     // Without this, doing nothing at all would pass for every order.
-    let names = ["q0.pmq", "q2.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq", "q0-4.pmq", "q2-1.pmq"];
+    let names = ["q0.pmq", "q2.pmq", "q5.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq", "q0-4.pmq", "q2-1.pmq"];
     let sequences = names.map(sequence);
     for (i, name) in names.iter().enumerate() {
         for (j, other) in names.iter().enumerate().skip(i + 1) {
@@ -120,7 +121,7 @@ fn orders_are_orders() {
 fn every_order_makes_the_same_searches() {
     let folder = Folder::with_streams();
     let names = queries_in_every_order(&folder);
-    for map in ["kd", "brute"] {
+    for map in ["kd", "kd --layout preorder", "kd --reread", "brute"] {
         let mut tallies: Vec<Tally> = vec![];
         for name in &names {
             let trace = folder.run(&format!("pm-gather --map {map} map.pmp {name}")).ok();
@@ -154,6 +155,8 @@ fn the_picture_is_the_same_to_the_last_bit() {
         "--map brute --start-radius inf",
         "--map brute --start-radius auto",
         "--map brute --start-radius 0.02 -t 5",
+        "--map kd --layout preorder",
+        "--map kd --layout preorder --reread --start-radius inf -t 2",
         "--max-dist 1e9",
     ] {
         same_bytes(options, &expected, &picture(&format!("q0-2.pmq {options}")));

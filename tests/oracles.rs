@@ -184,4 +184,13 @@ fn each_search_reads_its_nearest_photons_and_the_root_first() {
     let (text, queries) = reads(&folder);
     assert_eq!(queries, walked.len() as u64);
     assert_eq!(text.len(), walked.iter().map(|search| search.accesses.len()).sum::<usize>());
+
+    // Where the nodes lie changes no number of reads; second touches come on top, at most one for each first.
+    let total = |options: &str| {
+        let trace = folder.run(&format!("pm-gather map.pmp q.pmq -k 30 --start-radius inf {options}")).ok();
+        searches(&trace.stdout).iter().map(|search| search.accesses.len()).sum::<usize>()
+    };
+    assert_eq!(total("--layout preorder"), text.len());
+    assert!((text.len() + 1..2 * text.len()).contains(&total("--reread")));
+    assert_eq!(total("--reread"), total("--reread --layout preorder"));
 }

@@ -70,7 +70,7 @@ fn written<T: Record>(record: impl Fn(u32) -> T) -> Vec<u8> {
 
 fn trace() -> Vec<u8> {
     let regions: Vec<Region> = lay_out([
-        ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7 }),
+        ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7, reread: false }),
         ("list".to_owned(), 4096, 16, Coding::Records),
     ]);
     let header = Header { regions, ..header("pm-gather") };
