@@ -17,7 +17,7 @@ pub struct Step {
     pub seed: Option<u64>,
     /// Name of the file that the stream was read from, as typed; `None` for a pipe, or where there was none to read.
     pub input: Option<String>,
-    /// Other streams that were read as a whole, by the name typed: a photon map, say.
+    /// Other streams that were read as a whole, by the name typed: a photon map, say; `-` is standard input.
     pub inputs: Vec<(String, Vec<Step>)>,
 }
 
@@ -32,7 +32,16 @@ pub fn as_commands(history: &[Step]) -> String {
             pipe.clear();
         }
         for (name, steps) in &step.inputs {
-            let _ = writeln!(lines, "{} > {}", as_commands(steps).trim_end(), quoted(name));
+            let commands = as_commands(steps);
+            let commands = commands.trim_end();
+            if name == "-" {
+                // The pipe that made it goes on here; the stream itself, then, was read from a file.
+                let last = commands.rfind('\n').map_or(0, |end| end + 1);
+                lines += &commands[..last];
+                pipe.push_str(&commands[last..]);
+            } else {
+                let _ = writeln!(lines, "{commands} > {}", quoted(name));
+            }
         }
         pipe += if pipe.is_empty() { "" } else { " | " };
         pipe += &step.program;
@@ -86,6 +95,15 @@ mod tests {
         reorder.input = Some("q.pmq".into());
         let history = [step("pm-queries", &[]), reorder, step("pm-gather", &["map.pmp"])];
         assert_eq!(as_commands(&history), "pm-queries > q.pmq\npm-reorder hilbert q.pmq | pm-gather map.pmp\n");
+    }
+
+    #[test]
+    fn another_stream_read_from_a_pipe_is_piped_again() {
+        let mut gather = step("pm-gather", &["-", "q.pmq"]);
+        gather.input = Some("q.pmq".into());
+        gather.inputs.push(("-".into(), vec![step("pm-photons", &[])]));
+        let history = [step("pm-queries", &[]), gather];
+        assert_eq!(as_commands(&history), "pm-queries > q.pmq\npm-photons | pm-gather - q.pmq\n");
     }
 
     #[test]

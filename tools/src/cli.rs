@@ -116,10 +116,17 @@ pub fn main<A: CommandFactory + FromArgMatches>(
     let arguments = matches.and_then(|matches| A::from_arg_matches(&matches));
     let arguments = match arguments {
         Ok(arguments) => arguments,
-        Err(error) => {
-            // Help and version are asked for and go to standard output, where a reader may leave early.
-            let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        Err(error) if error.use_stderr() => {
+            // In a pipe of several programs every line says which of them speaks.
+            let message = error.render().to_string();
+            let lines = message.lines().filter(|line| !line.trim().is_empty());
+            lines.for_each(|line| say(line.strip_prefix("error: ").unwrap_or(line)));
+            return ExitCode::from(2);
+        }
+        Err(help_or_version) => {
+            // These were asked for and go to standard output, where a reader may leave early.
+            let _ = help_or_version.print();
+            return ExitCode::SUCCESS;
         }
     };
     output::remove_temporary_files_on_signals();
@@ -142,8 +149,12 @@ fn generate(mut command: clap::Command, program: &str, what: &str) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let done = done.and_then(|()| std::io::stdout().write_all(&text));
-    error::report(done.map_err(Into::into))
+    let done = done.map_err(Into::into).and_then(|()| {
+        let mut output = create_output(Path::new("-"))?;
+        output.write_all(&text)?;
+        output.commit()
+    });
+    error::report(done)
 }
 
 /// A line on standard error that says who speaks.

@@ -133,7 +133,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
 /// A photon stream read as a whole.
 struct PhotonInput {
-    name: String,
     header: Header,
     photons: Vec<Photon>,
     emitted_paths: u64,
@@ -150,7 +149,7 @@ impl PhotonInput {
         let Some(Number::Count(emitted_paths)) = input.end()?.measure("emitted_paths") else {
             bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
         };
-        Ok(Self { header: input.header().clone(), name, photons, emitted_paths })
+        Ok(Self { header: input.header().clone(), photons, emitted_paths })
     }
 }
 
@@ -172,15 +171,16 @@ fn gather(
     header.regions = map.regions(args.reread);
     header.set_meaning("map", args.map.name());
     header.set_meaning("k", args.k);
-    let inputs = vec![(photons.name.clone(), photons.header.history.clone())];
+    let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
 
+    // First, so that a reader of the trace who leaves at once does not leave without the pictures being missed.
+    let images: Vec<(&PathBuf, Output)> =
+        args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let mut trace = match args.no_trace {
         true => None,
         false => Some(TraceWriter::new(args.output.create()?, &header)?),
     };
-    let images: Vec<(&PathBuf, Output)> =
-        args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let estimate = RadianceEstimate::new(
         &photons.photons,
         &query_header.materials,

@@ -93,8 +93,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     header.set_meaning("gathers", args.gathers);
     header.history.push(typed.step(Some(args.seed)));
 
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
     let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
+    let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let options = GatherOptions {
         gathers: args.gathers,
         light_samples: args.light_samples,

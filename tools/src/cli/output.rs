@@ -77,8 +77,7 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
         return Ok(Output { name: "standard output".into(), target });
     }
     let name = path.display().to_string();
-    // A symlink stays and its target is replaced.
-    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = behind_symlinks(path).with_context(|| format!("cannot write {name}"))?;
     let existing = fs::metadata(&path).ok();
     if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
         return Err(usage(format!("{name} is a folder; name a file")));
@@ -89,7 +88,7 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     // A new file gets what the umask leaves, an old one keeps its permissions.
-    let mode = existing.map_or(0o666, |metadata| metadata.permissions().mode());
+    let mode = existing.as_ref().map_or(0o666, |metadata| metadata.permissions().mode());
     let file = tempfile::Builder::new()
         .prefix(&format!(".{}.", path.file_name().unwrap_or_default().to_string_lossy()))
         .suffix(".tmp")
@@ -97,7 +96,26 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
         .tempfile_in(folder)
         .with_context(|| format!("cannot write {name}"))?;
     unfinished().push((file.path().to_owned(), path.clone()));
+    if let Some(metadata) = existing {
+        // The umask has taken its part of them.
+        file.as_file().set_permissions(metadata.permissions()).with_context(|| format!("cannot write {name}"))?;
+    }
     Ok(Output { name, target: Target::Atomic { file: BufWriter::with_capacity(CAPACITY, file), path } })
+}
+
+/// The file that a name stands for: a symlink stays and its target is written, be it there or not.
+fn behind_symlinks(path: &Path) -> io::Result<PathBuf> {
+    match fs::canonicalize(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            // No loop, for that would have been another error.
+            let mut path = path.to_owned();
+            while let Ok(target) = fs::read_link(&path) {
+                path = path.parent().unwrap_or(Path::new("")).join(target);
+            }
+            Ok(path)
+        }
+        outcome => outcome,
+    }
 }
 
 impl Output {

@@ -1,0 +1,191 @@
+//! Cut at every byte, flip any bit: always exit 3, never a panic, never a silent half?
+
+mod killed;
+mod specimens;
+
+use crate::streams::check;
+use crate::support::{Folder, Outcome};
+use pm_formats::Kind;
+use specimens::{specimen, table_of};
+
+/// The program that takes a kind of stream for its work, reading it from standard input.
+fn consumer(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Photons => "pm-gather - q.pmq -k 3",
+        Kind::Queries => "pm-reorder hilbert",
+        Kind::Trace => "pm-cachesim --sizes 1K",
+    }
+}
+
+/// A folder with whole streams for the inputs that are not damaged.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("map.pmp", specimen(Kind::Photons));
+    folder.write("q.pmq", specimen(Kind::Queries));
+    folder
+}
+
+/// The program saw the damage, said so in one line, and passed on nothing that could be taken for a result.
+#[track_caller]
+fn refused(outcome: &Outcome, what: &str) {
+    assert_eq!(outcome.code, 3, "{what}: exit code of `{}`\n{}", outcome.line, outcome.stderr);
+    let _ = outcome.fails(3);
+    if outcome.line.starts_with("pm-cachesim") || outcome.line.starts_with("pm-view") {
+        assert!(outcome.stdout.is_empty(), "{what}: `{}` printed a result", outcome.line);
+    } else {
+        assert!(check(&outcome.stdout).is_err(), "{what}: `{}` wrote a whole stream", outcome.line);
+    }
+}
+
+fn cut_everywhere(kind: Kind) {
+    let (folder, stream) = (folder(), specimen(kind));
+    let _ = folder.feed(consumer(kind), &stream).ok();
+    for len in 0..stream.len() {
+        for program in [consumer(kind), "pm-view --check"] {
+            refused(&folder.feed(program, &stream[..len]), &format!("cut to {len} of {} bytes", stream.len()));
+        }
+    }
+}
+
+fn flip_a_bit_of_every_byte(kind: Kind) {
+    let (folder, stream) = (folder(), specimen(kind));
+    for at in 0..stream.len() {
+        // Each of the eight bits gets its turn.
+        let bit = (at * 5 + at / 8) % 8;
+        let mut flipped = stream.clone();
+        flipped[at] ^= 1 << bit;
+        refused(&folder.feed(consumer(kind), &flipped), &format!("bit {bit} of byte {at} flipped"));
+    }
+}
+
+#[test]
+fn photons_cut_at_every_byte_are_refused() {
+    cut_everywhere(Kind::Photons);
+}
+
+#[test]
+fn queries_cut_at_every_byte_are_refused() {
+    cut_everywhere(Kind::Queries);
+}
+
+#[test]
+fn traces_cut_at_every_byte_are_refused() {
+    cut_everywhere(Kind::Trace);
+}
+
+#[test]
+fn photons_with_a_flipped_bit_are_refused() {
+    flip_a_bit_of_every_byte(Kind::Photons);
+}
+
+#[test]
+fn queries_with_a_flipped_bit_are_refused() {
+    flip_a_bit_of_every_byte(Kind::Queries);
+}
+
+#[test]
+fn traces_with_a_flipped_bit_are_refused() {
+    flip_a_bit_of_every_byte(Kind::Trace);
+}
+
+#[test]
+fn the_library_refuses_every_cut_and_every_flipped_bit() {
+    for kind in [Kind::Photons, Kind::Queries, Kind::Trace] {
+        let mut stream = specimen(kind);
+        assert!(check(&stream).unwrap().records >= 12);
+        for len in 0..stream.len() {
+            let error = check(&stream[..len]).expect_err("a cut stream");
+            assert!(error.is_damage(), "{kind:?} cut to {len}: {error}");
+        }
+        for at in 0..stream.len() {
+            for bit in 0..8 {
+                stream[at] ^= 1 << bit;
+                let error = check(&stream).map_or_else(Some, |tally| panic!("{kind:?} {at}:{bit} passes as {tally:?}"));
+                assert!(error.as_ref().is_some_and(pm_formats::Error::is_damage), "{kind:?} {at}:{bit}: {error:?}");
+                stream[at] ^= 1 << bit;
+            }
+        }
+        assert!(check(&stream).is_ok());
+    }
+}
+
+#[test]
+fn what_is_no_whole_stream_is_refused_by_every_reader() {
+    let folder = folder();
+    for kind in [Kind::Photons, Kind::Queries, Kind::Trace] {
+        let whole = specimen(kind);
+        let half = &whole[..whole.len() / 2];
+        // Readers of every way to read: for work, as a second input, checked, shown, as text.
+        let mut readers = vec![consumer(kind), "pm-view", "pm-view --check"];
+        match kind {
+            Kind::Photons => readers.push("pm-gather - q.pmq --no-trace --image out.exr"),
+            Kind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch -t 4"]),
+            Kind::Trace => readers.extend(["pm-cachesim --format json", "pm-cachesim -t 4"]),
+        }
+        for reader in readers {
+            let refuses = |what: &str, bytes: &[u8]| {
+                let outcome = folder.feed(reader, bytes);
+                let _ = outcome.fails(3);
+                // What was read so far may be shown as such; what only the end can tell may not.
+                let bare = Outcome { stdout: vec![], ..outcome };
+                refused(&bare, what);
+            };
+            refuses("empty", b"");
+            refuses("a text", b"photons\n1 2 3\n");
+            refuses("a long text", &b"x = 1;\n".repeat(100_000));
+            refuses("zeros", &[0; 4096]);
+            refuses("half", half);
+            refuses("garbage after the end", &[&whole[..], b"\n"].concat());
+            refuses("two streams", &whole.repeat(2));
+            refuses("half, then a whole one", &[half, &whole].concat());
+            refuses("text-mode damage", &String::from_utf8_lossy(&whole).replace("\r\n", "\n").into_bytes());
+            if !reader.starts_with("pm-view") {
+                for other in [Kind::Photons, Kind::Queries, Kind::Trace].into_iter().filter(|other| *other != kind) {
+                    refuses(other.plural(), &specimen(other));
+                }
+            }
+        }
+    }
+    assert_eq!(folder.names(), ["map.pmp", "q.pmq"]);
+}
+
+#[test]
+fn the_message_tells_how_far_it_got_and_what_to_do() {
+    let folder = folder();
+    let trace = specimen(Kind::Trace);
+    let outcome = folder.feed("pm-cachesim", &trace[..trace.len() - 1]);
+    let line = outcome.fails(3);
+    assert!(line.contains("standard input: after 3 blocks, 12 records"), "{line}");
+    assert!(line.contains("the program before this one did not finish"), "{line}");
+
+    folder.write("half.pmt", &trace[..trace.len() / 2]);
+    assert!(folder.run("pm-cachesim half.pmt").fails(3).contains("half.pmt"));
+    assert!(folder.run("pm-view --check map.pmp half.pmt").stderr.contains("half.pmt"));
+    assert!(folder.run("pm-gather q.pmq map.pmp").fails(3).contains("q.pmq: the stream holds queries, but photons"));
+}
+
+#[test]
+fn one_damaged_trace_of_several_leaves_no_table() {
+    let folder = folder();
+    let trace = specimen(Kind::Trace);
+    folder.write("whole.pmt", &trace);
+    folder.write("half.pmt", &trace[..trace.len() / 2]);
+    for format in ["table", "csv", "json"] {
+        refused(&folder.run(&format!("pm-cachesim --format {format} whole.pmt half.pmt")), "half a trace");
+    }
+    assert!(!table_of(&folder, "whole.pmt").is_empty());
+}
+
+#[test]
+fn a_flipped_bit_in_a_pipe_stops_every_program_after_it() {
+    let folder = folder();
+    let mut queries = specimen(Kind::Queries);
+    let at = queries.len() * 2 / 3;
+    queries[at] ^= 4;
+    folder.write("bad.pmq", queries);
+    let outcome = folder.sh("cat bad.pmq | pm-reorder random --per batch | pm-gather -k 3 | pm-cachesim");
+    assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+    assert!(outcome.stdout.is_empty());
+    let first = outcome.stderr.lines().next().unwrap_or_default();
+    assert!(first.starts_with("pm-reorder: standard input: the stream is damaged at block"), "{}", outcome.stderr);
+}

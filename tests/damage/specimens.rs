@@ -1,0 +1,91 @@
+//! Whole streams of each kind, so short that every byte can be tried.
+
+use crate::support::Folder;
+use pm_formats::trace::{BlockEncoder, TraceWriter, lay_out};
+use pm_formats::trace::{Coding, Region};
+use pm_formats::{
+    BlockMeta, Bounds, Header, Kind, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step,
+};
+
+/// Records of each of the three blocks.
+const EACH: u32 = 4;
+
+/// A stream of this kind: a header, three blocks of four records, an end block; about a kilobyte.
+pub(super) fn specimen(kind: Kind) -> Vec<u8> {
+    match kind {
+        Kind::Photons => written(photon),
+        Kind::Queries => written(query),
+        Kind::Trace => trace(),
+    }
+}
+
+/// What `pm-cachesim` prints of a trace in a folder.
+pub(super) fn table_of(folder: &Folder, name: &str) -> String {
+    folder.run(&format!("pm-cachesim {name}")).ok().text().to_owned()
+}
+
+/// A number in [0, 1] that looks random, so that blocks do not shrink to nothing.
+fn number(seed: u32) -> f32 {
+    (seed.wrapping_mul(2_654_435_761) >> 8) as f32 / (1u32 << 24) as f32
+}
+
+fn photon(i: u32) -> Photon {
+    let position = [number(i), 0.0, number(i + 100)];
+    Photon::new(position, [0.5; 3], [0.5; 3], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]).expect("a photon")
+}
+
+fn query(i: u32) -> Query {
+    let (normal, view) = Query::pack_vectors([0.0, 1.0, 0.0], [0.0, 0.6, 0.8]);
+    let position = [number(i + 200), 0.0, number(i + 300)];
+    Query { position, normal, view, material: 0, flags: 0, pixel: i, sample: i % 3, weight: [0.5; 3] }
+}
+
+fn header(program: &str) -> Header {
+    let step = Step {
+        program: program.into(),
+        version: "0".into(),
+        arguments: vec!["-n".into(), "12".into()],
+        seed: Some(0),
+        input: None,
+        inputs: vec![],
+    };
+    let floor = Material { name: "floor".into(), diffuse: [0.5; 3], specular: [0.0; 3], exponent: 0.0 };
+    let bounds = Bounds { min: [0.0; 3], max: [1.0; 3] };
+    Header { bounds, image: [4, 3], materials: vec![floor], history: vec![step], ..Header::empty() }
+}
+
+fn stages(program: &str) -> Vec<StageReport> {
+    vec![StageReport::new(program).with("emitted_paths", Number::Count(12))]
+}
+
+fn written<T: Record>(record: impl Fn(u32) -> T) -> Vec<u8> {
+    let mut writer = RecordWriter::new(vec![], &header("pm-x")).expect("a header");
+    for batch in 0..3 {
+        let records: Vec<T> = (0..EACH).map(|i| record(batch * EACH + i)).collect();
+        let meta = BlockMeta { batch: batch.into(), ..BlockMeta::default() };
+        writer.write(meta, &records).expect("a block");
+    }
+    writer.finish(stages("pm-x")).expect("an end block")
+}
+
+fn trace() -> Vec<u8> {
+    let regions: Vec<Region> = lay_out([
+        ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7, reread: false }),
+        ("list".to_owned(), 4096, 16, Coding::Records),
+    ]);
+    let header = Header { regions, ..header("pm-gather") };
+    let mut writer = TraceWriter::new(vec![], &header).expect("a header");
+    for batch in 0..3 {
+        let mut encoder = BlockEncoder::new(&header.regions);
+        for i in 0..EACH {
+            encoder.begin(&[batch * EACH + i]);
+            encoder.records(0, &[0, 1, 3, 4][..1 + i as usize % 4]);
+            encoder.records(1, &[i * 40, batch, 255 - i]);
+            encoder.end();
+        }
+        let meta = BlockMeta { batch: batch.into(), ..BlockMeta::default() };
+        let (block, tally) = encoder.finish(meta).expect("a block");
+        writer.write(&block, tally).expect("room for a block");
+    }
+    writer.finish(stages("pm-gather")).expect("an end block")
+}

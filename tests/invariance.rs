@@ -1,0 +1,217 @@
+//! Do the answers stay the same for every order, every exact photon map, any number of threads, pipe or files?
+
+use crate::streams::{check, records, searches, sorted_records};
+use crate::support::{Folder, SMALL, same_bytes, same_text};
+use pm_formats::{Query, Tally};
+use pm_tools::image::Picture;
+
+/// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.
+const GENERATIVE: [&str; 6] = [
+    "--order scanline",
+    "--order tiled --tile 1",
+    "--order tiled --tile 3",
+    "--order tiled",
+    "--order tiled --tile 99",
+    "--strata shuffled",
+];
+
+/// Orders that `pm-reorder` brings queries into.
+const DEFERRED: [&str; 5] =
+    ["hilbert", "hilbert --per batch", "random", "random --per batch", "random --seed 7 --per image"];
+
+/// Runs a command with 1, 2 and 5 threads; `get` must find the same bytes after each.
+fn same_for_any_threads(folder: &Folder, line: &str, get: impl Fn(&[u8]) -> Vec<u8>) {
+    let run = |threads: u32| get(&folder.run(&format!("{line} -t {threads}")).ok().stdout);
+    let one = run(1);
+    assert!(!one.is_empty(), "{line}");
+    for threads in [2, 5] {
+        same_bytes(&format!("`{line}` with {threads} threads"), &one, &run(threads));
+    }
+}
+
+#[test]
+fn threads_change_no_byte_of_a_stream() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
+    for line in [
+        // Several times the paths that are traced as one piece of work.
+        "pm-photons -n 40000",
+        "pm-reorder hilbert q.pmq",
+        "pm-reorder random --per batch q.pmq",
+        "pm-gather map.pmp q.pmq",
+        "pm-gather --map brute --start-radius 0.01 map.pmp q.pmq",
+        "pm-cachesim --sizes 4K,64K t.pmt",
+        "pm-view t.pmt",
+        "pm-view --records q.pmq",
+    ] {
+        same_for_any_threads(&folder, line, <[u8]>::to_vec);
+    }
+    for order in GENERATIVE {
+        same_for_any_threads(&folder, &format!("pm-queries {SMALL} {order}"), <[u8]>::to_vec);
+    }
+}
+
+#[test]
+fn threads_change_no_byte_of_a_picture() {
+    let folder = Folder::with_streams();
+    for order in GENERATIVE {
+        let line = format!("pm-queries {SMALL} {order} --base direct.exr");
+        same_for_any_threads(&folder, &line, |_| folder.read("direct.exr"));
+    }
+    let gather = "pm-gather map.pmp q.pmq --base direct.exr --no-trace --image out.exr --image out.png -q";
+    same_for_any_threads(&folder, gather, |_| [folder.read("out.exr"), folder.read("out.png")].concat());
+}
+
+/// The queries of the built-in scene in every order, as files; their names.
+fn queries_in_every_order(folder: &Folder) -> Vec<String> {
+    let mut names = vec![];
+    for (g, generative) in GENERATIVE.iter().enumerate() {
+        let name = format!("q{g}.pmq");
+        folder.run(&format!("pm-queries {SMALL} {generative} -o {name}")).ok();
+        for (d, deferred) in DEFERRED.iter().enumerate() {
+            let reordered = format!("q{g}-{d}.pmq");
+            folder.run(&format!("pm-reorder {deferred} {name} -o {reordered}")).ok();
+            names.push(reordered);
+        }
+        names.push(name);
+    }
+    names
+}
+
+/// What `pm-view --check` says of a file, less its name: kind, number and digest.
+fn checked(folder: &Folder, name: &str) -> String {
+    let line = folder.run(&format!("pm-view --check {name}")).ok().text().to_owned();
+    line.strip_prefix(&format!("{name}: ")).unwrap_or_else(|| panic!("{line}")).to_owned()
+}
+
+#[test]
+fn every_order_holds_the_same_queries() {
+    let folder = Folder::new();
+    let names = queries_in_every_order(&folder);
+    let first = folder.read(&names[0]);
+    let (digest, sorted) = (checked(&folder, &names[0]), sorted_records::<Query>(&first));
+    assert!(sorted.len() > 100);
+    for name in &names {
+        same_text(name, &digest, &checked(&folder, name));
+        assert!(sorted_records::<Query>(&folder.read(name)) == sorted, "{name}: other records");
+    }
+}
+
+#[test]
+fn orders_are_orders() {
+    let folder = Folder::new();
+    queries_in_every_order(&folder);
+    let sequence = |name: &str| -> Vec<_> {
+        records::<Query>(&folder.read(name)).iter().map(|query| (query.pixel, query.sample)).collect()
+    };
+    // Without this, doing nothing at all would pass for every order.
+    let names = ["q0.pmq", "q2.pmq", "q5.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq", "q0-4.pmq", "q2-1.pmq"];
+    let sequences = names.map(sequence);
+    for (i, name) in names.iter().enumerate() {
+        for (j, other) in names.iter().enumerate().skip(i + 1) {
+            assert!(sequences[i] != sequences[j], "{name} and {other} are in the same order");
+        }
+    }
+    assert!(sequences[0].is_sorted(), "scanline order is pixel by pixel");
+    // One order for the whole image does not depend on the order before it, as long as no two keys are equal.
+    assert_eq!(sequence("q0-2.pmq"), sequence("q3-2.pmq"));
+}
+
+#[test]
+fn every_order_makes_the_same_searches() {
+    let folder = Folder::with_streams();
+    let names = queries_in_every_order(&folder);
+    for map in ["kd", "kd --layout preorder", "kd --reread", "brute"] {
+        let mut tallies: Vec<Tally> = vec![];
+        for name in &names {
+            let trace = folder.run(&format!("pm-gather --map {map} map.pmp {name}")).ok();
+            tallies.push(check(&trace.stdout).unwrap_or_else(|error| panic!("{name}: {error}")));
+        }
+        assert!(tallies[0].records > 100);
+        for (name, tally) in names.iter().zip(&tallies) {
+            assert_eq!(*tally, tallies[0], "--map {map}, {name}: other searches than {}", names[0]);
+        }
+    }
+}
+
+#[test]
+fn the_picture_is_the_same_to_the_last_bit() {
+    let folder = Folder::with_streams();
+    let names = queries_in_every_order(&folder);
+    folder.run(&format!("pm-queries {SMALL} --base direct.exr -o q.pmq")).ok();
+    let picture = |options: &str| {
+        folder.run(&format!("pm-gather map.pmp {options} --base direct.exr --image out.exr --no-trace")).ok();
+        folder.read("out.exr")
+    };
+    let expected = picture("q.pmq");
+    for name in &names {
+        same_bytes(name, &expected, &picture(name));
+    }
+    for options in [
+        "--map kd --start-radius inf",
+        "--map kd --start-radius auto -t 3",
+        "--map kd --start-radius 1e-5",
+        "--map kd --start-radius 1e9",
+        "--map brute --start-radius inf",
+        "--map brute --start-radius auto",
+        "--map brute --start-radius 0.02 -t 5",
+        "--map kd --layout preorder",
+        "--map kd --layout preorder --reread --start-radius inf -t 2",
+        "--max-dist 1e9",
+    ] {
+        same_bytes(options, &expected, &picture(&format!("q0-2.pmq {options}")));
+        same_bytes(options, &expected, &picture(&format!("q2-1.pmq {options}")));
+    }
+
+    // There is something in the picture: light in nearly every pixel, more of it than direct light alone, and another
+    // picture for another question.
+    let sum = |name: &str| {
+        let pixels = Picture::read_exr(&folder.path(name)).unwrap().pixels;
+        assert_eq!(pixels.len(), 16 * 12);
+        pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>()
+    };
+    assert!(sum("out.exr") > 1.1 * sum("direct.exr") && sum("direct.exr") > 1.0);
+    assert_ne!(expected, picture("q.pmq -k 10"));
+    assert_ne!(expected, picture("q.pmq --max-dist 0.01"));
+}
+
+#[test]
+fn the_start_radius_changes_the_reads() {
+    let folder = Folder::with_streams();
+    let tally = |radius: &str| {
+        let trace = folder.run(&format!("pm-gather map.pmp q.pmq --start-radius {radius}")).ok();
+        check(&trace.stdout).unwrap()
+    };
+    assert_ne!(tally("inf").digest, tally("auto").digest);
+    assert_ne!(tally("inf").digest, tally("0.001").digest);
+    assert_eq!(tally("inf").records, tally("0.001").records);
+}
+
+#[test]
+fn the_base_picture_does_not_depend_on_the_order() {
+    let folder = Folder::new();
+    let base = |order: &str| {
+        folder.run(&format!("pm-queries {SMALL} {order} --base direct.exr")).ok();
+        folder.read("direct.exr")
+    };
+    let expected = base("");
+    for order in GENERATIVE {
+        same_bytes(order, &expected, &base(order));
+    }
+}
+
+#[test]
+fn pipe_and_files_give_the_same_records() {
+    let folder = Folder::with_streams();
+    folder.run("pm-reorder hilbert q.pmq -o h.pmq").ok();
+    folder.run("pm-gather map.pmp h.pmq -o t.pmt").ok();
+    let pipe = folder.sh(&format!("pm-queries {SMALL} | tee p.pmq | pm-reorder hilbert | tee ph.pmq | pm-gather")).ok();
+    for (file, piped) in [("q.pmq", "p.pmq"), ("h.pmq", "ph.pmq")] {
+        assert_eq!(records::<Query>(&folder.read(file)), records::<Query>(&folder.read(piped)), "{file}");
+    }
+    assert!(searches(&folder.read("t.pmt")) == searches(&pipe.stdout));
+
+    let table = folder.run("pm-cachesim t.pmt").ok();
+    same_text("table", table.text(), folder.feed("pm-cachesim", &pipe.stdout).ok().text());
+    same_text("table", table.text(), folder.feed("pm-cachesim -", &folder.read("t.pmt")).ok().text());
+}

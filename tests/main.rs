@@ -1,0 +1,13 @@
+//! The programs as their users meet them: real processes, real pipes, real files.
+//!
+//! Each file answers one question, which is its first line.
+
+mod cli;
+mod damage;
+mod files;
+mod invariance;
+mod oracles;
+mod pipes;
+mod streams;
+mod support;
+mod tidy;
