@@ -4,7 +4,7 @@ use anyhow::Context as _;
 use clap::Parser;
 use indicatif::BinaryBytes;
 use pm_formats::{BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport};
-use pm_tools::cli::{self, Common, OutputArgs, Progress, Typed, named, open_input};
+use pm_tools::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input};
 use pm_tools::order::{Per, Reorder, Sorted, hilbert_keys};
 use pm_tools::random::Random;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ struct Args {
     #[command(flatten)]
     output: OutputArgs,
     #[command(flatten)]
-    common: Common,
+    voice: Voice,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -72,13 +72,13 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         let bytes = records * (size_of::<Query>() + size_of::<u64>()) as u64;
         if bytes > WORTH_SAYING {
             let size = BinaryBytes(bytes);
-            args.common
+            args.voice
                 .remark(format!("up to {records} queries will be held in {size} of memory to order the whole image"));
         }
     }
 
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
-    let progress = Progress::new(header.expected_records, "queries", args.common.quiet);
+    let progress = Progress::new(header.expected_records, "queries", args.voice.quiet);
     let mut order = build(args.order, args.per, header.bounds, args.seed);
     while let Some((meta, records)) = queries.next_block().with_context(|| name.clone())? {
         order.push(meta, &records, &mut |meta: BlockMeta, queries: &[Query]| output.write(meta, queries))?;
