@@ -5,11 +5,12 @@ mod input;
 mod output;
 mod progress;
 mod typed;
+mod usage;
 
-pub use error::{UsageError, usage};
 pub use input::{Input, named, open_input};
 pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
+pub use usage::{UsageError, usage};
 
 use clap::{CommandFactory, FromArgMatches};
 use pm_formats::Step;
