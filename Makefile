@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run test check full-size bench man clean
+.PHONY: help programs run test check full-size causes bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -65,33 +65,47 @@ $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
 
 # ---- make full-size: the paper's own size, through pipes and without storing the streams ----------------------------
 
-FULL := scanline scanline-inf scanline-preorder scanline-reread scanline-shuffled tiled-hilbert hilbert hilbert-inf hilbert-preorder
+FULL := scanline scanline-inf scanline-preorder tiled-hilbert hilbert hilbert-inf hilbert-preorder
 FULL_QUERIES := $(BIN)/pm-queries --size 512x512
 
-full-size: $(FULL:%=out/full/%.csv) ## The paper's size (512 x 512, 100 gathers, 450,000 photons): about 25 minutes on two cores
+full-size: $(FULL:%=out/full/%.csv) ## The paper's size (512 x 512, 100 gathers, 450,000 photons): 20 minutes on two cores
 	@awk -v tiles=1024 -v rays=$$((512 * 512 * 100)) -f scripts/compare.awk scripts/paper.csv $^
 
 out/full/map.pmp: | programs
 	mkdir -p out/full
 	$(LAUNCH) $(BIN)/pm-photons -n 450000 -t $(THREADS) -o $@
 
-# What follows the pipe's first program, by the name of the target.
-ORDER_scanline := |
-ORDER_tiled-hilbert := --order tiled | $(BIN)/pm-reorder hilbert --per batch |
-ORDER_hilbert := | $(BIN)/pm-reorder hilbert |
+# What makes the queries, and the options of pm-gather, by the two halves of the target's name.
+MAKE_scanline := $(FULL_QUERIES)
+MAKE_tiled-hilbert := $(FULL_QUERIES) --order tiled | $(BIN)/pm-reorder hilbert --per batch
+MAKE_hilbert := $(FULL_QUERIES) | $(BIN)/pm-reorder hilbert
 OPTIONS_inf := --start-radius inf
 OPTIONS_preorder := --layout preorder
 OPTIONS_reread := --reread
-
-out/full/scanline-shuffled.csv: out/full/map.pmp
-	$(LAUNCH) sh -c '$(FULL_QUERIES) --strata shuffled | $(BIN)/pm-gather $< -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
-
-out/full/tiled-hilbert.csv: out/full/map.pmp
-	$(LAUNCH) sh -c '$(FULL_QUERIES) $(ORDER_tiled-hilbert) $(BIN)/pm-gather $< -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
+variant = $(filter inf preorder reread,$(lastword $(subst -, ,$*)))
+order = $(if $(variant),$(patsubst %-$(variant),%,$*),$*)
 
 out/full/%.csv: out/full/map.pmp
-	$(LAUNCH) sh -c '$(FULL_QUERIES) $(ORDER_$(word 1,$(subst -, ,$*))) $(BIN)/pm-gather $< -t $(THREADS) \
-	    $(OPTIONS_$(word 2,$(subst -, ,$*))) | $(BIN)/pm-cachesim --format csv' > $@
+	$(LAUNCH) sh -c '$(MAKE_$(order)) | $(BIN)/pm-gather $< -t $(THREADS) $(OPTIONS_$(variant)) | $(BIN)/pm-cachesim --format csv' > $@
+
+# ---- make causes: what the fetches of the plain order depend on, at 64 x 64 pixels and the paper's 450,000 photons --
+
+CAUSES := scanline shuffled inf fixed-0.02 fixed-0.025 fixed-0.03 reread preorder photons-100000 photons-200000 random
+SMALL_QUERIES := $(BIN)/pm-queries --size 64x64
+CAUSE_shuffled = $(SMALL_QUERIES) --strata shuffled | $(BIN)/pm-gather $<
+CAUSE_random = $(SMALL_QUERIES) | $(BIN)/pm-reorder random | $(BIN)/pm-gather $<
+CAUSE_photons-100000 = $(BIN)/pm-photons -n 100000 -o out/causes/100000.pmp && $(SMALL_QUERIES) | $(BIN)/pm-gather out/causes/100000.pmp
+CAUSE_photons-200000 = $(BIN)/pm-photons -n 200000 -o out/causes/200000.pmp && $(SMALL_QUERIES) | $(BIN)/pm-gather out/causes/200000.pmp
+CAUSE_fixed-0.02 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.02
+CAUSE_fixed-0.025 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.025
+CAUSE_fixed-0.03 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.03
+
+causes: $(CAUSES:%=out/causes/%.csv) ## What the fetches of the plain order depend on: strata, start radius, second touch, layout, photons
+	@awk -v tiles=16 -v rays=$$((64 * 64 * 100)) -f scripts/compare.awk scripts/paper.csv $^
+
+out/causes/%.csv: out/full/map.pmp
+	@mkdir -p out/causes
+	$(LAUNCH) sh -c '$(or $(CAUSE_$*),$(SMALL_QUERIES) | $(BIN)/pm-gather $< $(OPTIONS_$*)) -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
 
 # ---- checks ---------------------------------------------------------------------------------------------------------
 

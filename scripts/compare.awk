@@ -27,7 +27,7 @@ FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     }
     queries = $at["queries"]; fetches = $at["fetches"]; mb = $at["bytes_fetched"] / 1e6
     if (name == "scanline") { whole = mb; whole_fetches = fetches }
-    base = name; sub(/-(inf|preorder|reread|shuffled)$/, "", base)
+    base = name; sub(/-(inf|preorder|reread)$/, "", base)
     own = ""
     u = unit[base]
     if (u == "" && base == "random") u = "fetches per query"

@@ -42,11 +42,13 @@ impl Picture {
             let samples = self.pixels.iter().map(|pixel| pixel[index]).collect();
             AnyChannel::new(name, FlatSamples::F32(samples))
         };
-        let mut layer = LayerAttributes::default();
-        layer.software_name = Text::new_or_none(concat!("pm ", env!("PM_VERSION")));
         // One text and not attributes of their own: the library keeps those in no fixed order.
         let comments: Vec<String> = attributes.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        layer.comments = Text::new_or_none(comments.join("\n"));
+        let layer = LayerAttributes {
+            software_name: Text::new_or_none(concat!("pm ", env!("PM_VERSION"))),
+            comments: Text::new_or_none(comments.join("\n")),
+            ..LayerAttributes::default()
+        };
         let channels = AnyChannels::sort([channel(0, "R"), channel(1, "G"), channel(2, "B")].into_iter().collect());
         let encoding =
             Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };

@@ -89,13 +89,16 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     // A new file gets what the umask leaves, an old one keeps its permissions.
     let mode = existing.as_ref().map_or(0o666, |metadata| metadata.permissions().mode());
+    // Held until the file is listed: a signal in between waits, and takes the file with it.
+    let mut listed = unfinished();
     let file = tempfile::Builder::new()
         .prefix(&format!(".{}.", path.file_name().unwrap_or_default().to_string_lossy()))
         .suffix(".tmp")
         .permissions(Permissions::from_mode(mode))
         .tempfile_in(folder)
         .with_context(|| format!("cannot write {name}"))?;
-    unfinished().push((file.path().to_owned(), path.clone()));
+    listed.push((file.path().to_owned(), path.clone()));
+    drop(listed);
     if let Some(metadata) = existing {
         // The umask has taken its part of them.
         file.as_file().set_permissions(metadata.permissions()).with_context(|| format!("cannot write {name}"))?;

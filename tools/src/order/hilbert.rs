@@ -19,14 +19,14 @@ pub fn hilbert_keys<T>(bounds: &Bounds, points: &[T], position: impl Fn(&T) -> [
     let cells = (1u32 << HILBERT_BITS) as f32;
     // Flat or tiny bounds may have no extent to speak of: then all points share a cell.
     let scale = Some(cells / extent).filter(|scale| scale.is_finite()).unwrap_or(0.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let cell_of = |x: f32, axis: usize| ((x - bounds.min[axis]) * scale).clamp(0.0, cells - 1.0) as u32;
     for chunk in points.chunks(LANES) {
         let mut cell = [[0u32; LANES]; 3];
         for (lane, point) in chunk.iter().enumerate() {
             let p = position(point);
             for axis in 0..3 {
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-                let cell_of = |x: f32| ((x - bounds.min[axis]) * scale).clamp(0.0, cells - 1.0) as u32;
-                cell[axis][lane] = cell_of(p[axis]);
+                cell[axis][lane] = cell_of(p[axis], axis);
             }
         }
         let transposed = transpose(cell, HILBERT_BITS);
@@ -50,6 +50,7 @@ pub fn hilbert_key(cell: [u32; 3], bits: u32) -> u32 {
 }
 
 /// Skilling's `AxestoTranspose` on `LANES` points at once, without branches.
+#[expect(clippy::needless_range_loop, reason = "two coordinates of a lane are changed together")]
 fn transpose(mut x: [[u32; LANES]; 3], bits: u32) -> [[u32; LANES]; 3] {
     // All ones if the bit is set.
     let mask = |value: u32, bit: u32| ((value >> bit) & 1).wrapping_neg();
