@@ -3,8 +3,8 @@
 use anyhow::Context as _;
 use clap::Parser;
 use indicatif::BinaryBytes;
-use pm_formats::{BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport};
-use pm_tools::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input};
+use pm_formats::{Block, BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport, tally_beside};
+use pm_tools::cli::{self, Output, OutputArgs, Progress, Typed, Voice, named, open_input};
 use pm_tools::order::{Per, Reorder, Sorted, hilbert_keys};
 use pm_tools::random::Random;
 use std::path::PathBuf;
@@ -81,13 +81,25 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let progress = Progress::new(header.expected_records, "queries", args.voice.quiet);
     let mut order = build(args.order, args.per, header.bounds, args.seed);
     while let Some((meta, records)) = queries.next_block().with_context(|| name.clone())? {
+        pass_on(queries.take_beside(), &mut output)?;
         order.push(meta, &records, &mut |meta: BlockMeta, queries: &[Query]| output.write(meta, queries))?;
         progress.add(records.len() as u64);
     }
+    pass_on(queries.take_beside(), &mut output)?;
     order.drain(&mut |meta: BlockMeta, queries: &[Query]| output.write(meta, queries))?;
     let mut report = StageReport::new(typed.program());
     report.measures = order.measures();
     output.finish_with_same_records(queries.end()?, report)?.commit()
+}
+
+/// Writes blocks that stand beside the queries as they are.
+fn pass_on(blocks: Vec<Block>, output: &mut RecordWriter<Query, Output>) -> anyhow::Result<()> {
+    for block in blocks {
+        // What it adds to the digest was checked when it was read.
+        let tally = tally_beside(&block).context("a block that was checked")?;
+        output.write_beside(&block, tally)?;
+    }
+    Ok(())
 }
 
 fn build(order: Order, per: Per, bounds: Bounds, seed: u64) -> Box<dyn Reorder> {
