@@ -1,10 +1,13 @@
 //! Gathering: queries answered from a photon map, and radiance from the photons found.
 
 mod answer;
+mod disc;
 mod estimate;
+mod kernel;
 
 pub use answer::{Answered, Answerer, Fault, SearchCounts};
-pub use estimate::{Estimator, Outcome, RadianceEstimate};
+pub use estimate::{Edges, EstimateOptions, Estimator, Outcome, RadianceEstimate, Scratch};
+pub use kernel::Kernel;
 
 #[cfg(test)]
 mod tests;

@@ -13,6 +13,9 @@ pub struct SceneArgs {
     /// Let glass transmit everything, whatever its Tf says
     #[arg(long)]
     pub clear_glass: bool,
+    /// Take Ks and Ns for a glossy lobe; exporters write them on plain paint too
+    #[arg(long)]
+    pub glossy: bool,
     /// Print the scene's materials on standard error
     #[arg(short, long)]
     pub verbose: bool,
@@ -62,7 +65,7 @@ impl SceneArgs {
         let scene = if self.scene.is_empty() {
             Scene::embedded()
         } else {
-            let options = LoadOptions { clear_glass: self.clear_glass, ..LoadOptions::default() };
+            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, ..LoadOptions::default() };
             Scene::load(&self.scene, &options)?
         };
         scene.warnings.iter().for_each(|warning| common.remark(warning));

@@ -4,16 +4,19 @@
 //! order of work. Transcendental functions come from `libm`, so recorded results are the same bytes on every x86-64.
 
 mod bvh;
+mod eye;
 mod gather_rays;
 mod lights;
 mod photon_paths;
+mod reflection;
 mod sampling;
 mod scatter;
 mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
-pub use gather_rays::{GatherOptions, GatherRays, RayCounts, Strata};
+pub use gather_rays::{GatherOptions, GatherRays, Method, RayCounts, Strata};
 pub use photon_paths::{PathPhoton, PhotonPaths};
+pub use reflection::Spread;
 pub use surface::{Stage, SurfacePoint};
 
 #[cfg(test)]
@@ -29,4 +32,6 @@ enum Purpose {
     GatherRay = 4,
     DirectLight = 5,
     StrataOrder = 6,
+    LightAtShortEnd = 7,
+    PixelSample = 8,
 }

@@ -6,7 +6,9 @@ use pm_formats::trace::TraceWriter;
 use pm_formats::{BlockReader, End, Header, Kind, Number, Photon, RecordReader, StageReport, Step, Tally};
 use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
 use pm_tools::film::Film;
-use pm_tools::gather::{Answered, Answerer, Estimator, Fault, RadianceEstimate, SearchCounts};
+use pm_tools::gather::{
+    Answered, Answerer, Edges, EstimateOptions, Estimator, Fault, Kernel, RadianceEstimate, SearchCounts,
+};
 use pm_tools::image::{Format, Picture};
 use pm_tools::parallel::in_order;
 use pm_tools::photon_map::{BruteForce, KdTree, Layout, PhotonMap, Search, StartRadius};
@@ -48,6 +50,12 @@ struct Args {
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
     estimator: Estimator,
+    /// How much a photon counts by its distance
+    #[arg(long, default_value = "constant", hide_short_help = true)]
+    kernel: Kernel,
+    /// What the flux is divided by where the photons' disc reaches beyond an edge of the surface
+    #[arg(long, default_value = "cut", hide_short_help = true)]
+    edges: Edges,
     /// Picture to write, .exr (linear) or .png (preview); may be given more than once
     #[arg(long, value_name = "FILE")]
     image: Vec<PathBuf>,
@@ -185,9 +193,13 @@ fn gather(
         &photons.photons,
         &query_header.materials,
         photons.emitted_paths,
-        k,
-        args.max_dist,
-        args.estimator,
+        EstimateOptions {
+            k,
+            max_dist: args.max_dist,
+            estimator: args.estimator,
+            kernel: args.kernel,
+            edges: args.edges,
+        },
     );
     let scale = estimate.scale(&query_header.bounds);
     let wanted = !images.is_empty();
@@ -280,7 +292,12 @@ fn write_images(args: &Args, header: &Header, film: &Film, images: Vec<(&PathBuf
     let odd = picture.pixels.iter().filter(|pixel| !finite(pixel)).count();
     ensure!(odd == 0, "{odd} pixels are not finite; is the base image damaged?");
     // Nothing that differs between two orders of the same work: equal pictures are equal files.
-    let attributes = [("photonmap.k", args.k.to_string()), ("photonmap.estimator", format!("{:?}", args.estimator))];
+    let attributes = [
+        ("photonmap.k", args.k.to_string()),
+        ("photonmap.estimator", format!("{:?}", args.estimator)),
+        ("photonmap.kernel", format!("{:?}", args.kernel)),
+        ("photonmap.edges", format!("{:?}", args.edges)),
+    ];
     for (path, mut output) in images {
         if Format::of(path)? == Format::Png && picture.clipped() > 0.0 {
             args.common.remark(format!("{}: {:.1} % of the pixels clipped", path.display(), picture.clipped() * 100.0));

@@ -19,6 +19,9 @@ struct Args {
     /// Photons to store: whole paths are traced until there are at least so many
     #[arg(short = 'n', long, value_name = "PHOTONS", default_value = "100000")]
     number: u64,
+    /// Store caustics only: photons that came from a light by mirrors and glass alone
+    #[arg(long)]
+    caustics: bool,
     /// Seed of the random numbers
     #[arg(long, default_value = "0")]
     seed: u64,
@@ -54,6 +57,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut header = header(&scene);
     header.expected_records = Some(args.number);
     header.history.push(typed.step(Some(args.seed)));
+    if args.caustics {
+        header.set_meaning("photons", "caustics");
+    }
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
 
@@ -73,7 +79,11 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         |first: u64| {
             let mut traced = Traced { photons: vec![], path_ends: vec![] };
             for path in first..first + PATHS {
-                paths.trace(path, |photon| traced.photons.push(photon));
+                paths.trace(path, |photon| {
+                    if photon.caustic || !args.caustics {
+                        traced.photons.push(photon);
+                    }
+                });
                 traced.path_ends.push(traced.photons.len());
             }
             traced
@@ -101,7 +111,8 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             progress.add(packed.len() as u64);
             ensure!(
                 stored.get() > 0 || emitted.get() < HOPELESS,
-                "no photon met a diffuse surface in {} paths: do the lights face the scene, and is anything diffuse (Kd)?",
+                "no photon{} met a diffuse surface in {} paths: do the lights face the scene, and is anything diffuse (Kd)?",
+                if args.caustics { " of a caustic" } else { "" },
                 emitted.get()
             );
             Ok(())

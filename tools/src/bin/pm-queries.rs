@@ -9,7 +9,7 @@ use pm_tools::image::{Format, Picture};
 use pm_tools::order::{Generative, Span};
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
-use pm_tools::transport::{GatherOptions, GatherRays, RayCounts, Strata};
+use pm_tools::transport::{GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -24,6 +24,23 @@ struct Args {
     /// Gather rays for each point seen, in a grid of strata
     #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     gathers: u32,
+    /// Eye rays for each pixel; one goes through its middle, more are spread over it
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1 << 16))]
+    samples: u32,
+    /// Ask at the points seen, without gather rays: the picture shows the photon map itself
+    #[arg(long)]
+    direct_visualisation: bool,
+    /// How gather rays are spread over the hemisphere
+    #[arg(long, default_value = "cosine", hide_short_help = true)]
+    sampling: Spread,
+    /// Gather rays shorter than this, in scene units, are continued by one more bounce; `auto` is 1/100 of the scene's
+    /// diagonal
+    #[arg(long, value_name = "X|auto", default_value = "0", value_parser = least_distance, hide_short_help = true)]
+    min_gather_dist: LeastDistance,
+    /// Leave caustics on the points seen to a map of their own: a gather ray that meets a lamp in a mirror or through
+    /// glass does not count
+    #[arg(long, hide_short_help = true)]
+    no_caustics: bool,
     /// Order in which the pixels are visited
     #[arg(long, default_value = "scanline")]
     order: Order,
@@ -62,6 +79,29 @@ Examples:
   pm-queries --size 512x512 --order tiled --tile 8 -t 2 -o tiled.pmq
   pm-queries room.obj --eye 0,1.6,4 --look-at 0,1,0 --base direct.exr | pm-gather --base direct.exr --image room.exr --no-trace";
 
+/// What is short for a gather ray.
+#[derive(Clone, Copy)]
+enum LeastDistance {
+    /// In scene units.
+    Fixed(f32),
+    /// A share of the scene's diagonal, [`AUTO_SHARE`].
+    Auto,
+}
+
+/// Share of the scene's diagonal below which a gather ray is short by itself: about the radius that 100 photons take of
+/// half a million in a room.
+const AUTO_SHARE: f32 = 0.01;
+/// Most gather rays of all samples of a pixel: leaves room for 256 points seen by one eye ray in the sample numbers.
+const MOST_GATHERS: u64 = 1 << 24;
+
+fn least_distance(text: &str) -> Result<LeastDistance, String> {
+    match text.parse::<f32>() {
+        _ if text == "auto" => Ok(LeastDistance::Auto),
+        Ok(x) if x >= 0.0 && x.is_finite() => Ok(LeastDistance::Fixed(x)),
+        _ => Err("a distance of 0 or more, or `auto`, is expected".into()),
+    }
+}
+
 fn main() -> ExitCode {
     cli::main("pm-queries", run)
 }
@@ -78,6 +118,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if let Some(base) = &args.base {
         Format::of(base)?;
     }
+    if u64::from(args.samples) * u64::from(args.gathers) > MOST_GATHERS {
+        return Err(cli::usage(format!("--samples times --gathers is more than {MOST_GATHERS}")));
+    }
     let scene = args.scene.load(&args.common)?;
     let camera = args.scene.camera(&scene, &args.camera, &args.common)?;
     let size = camera.size();
@@ -88,16 +131,32 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     };
     let mut header = header(&scene);
     header.image = size;
-    header.expected_records = Some(pixels * u64::from(args.gathers));
+    let gathers = if args.direct_visualisation { 1 } else { args.gathers };
+    header.expected_records = Some(pixels * u64::from(args.samples) * u64::from(gathers));
     header.set_meaning("order", order);
-    header.set_meaning("gathers", args.gathers);
+    if args.direct_visualisation {
+        header.set_meaning("gathers", "none: direct visualisation");
+    } else {
+        header.set_meaning("gathers", args.gathers);
+    }
+    if args.samples > 1 {
+        header.set_meaning("samples", args.samples);
+    }
     header.history.push(typed.step(Some(args.seed)));
 
     // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
     let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let options = GatherOptions {
-        gathers: args.gathers,
+        method: if args.direct_visualisation { Method::DirectVisualisation } else { Method::FinalGather },
+        samples: args.samples,
+        gathers,
+        spread: args.sampling,
+        min_gather_dist: match args.min_gather_dist {
+            LeastDistance::Fixed(x) => x,
+            LeastDistance::Auto => scene.bounds.size().length() * AUTO_SHARE,
+        },
+        caustics: !args.no_caustics,
         light_samples: args.light_samples,
         seed: args.seed,
         direct: base.is_some(),
@@ -146,7 +205,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     )?;
     drop(progress);
 
-    if counts.eye > 0 && counts.gather == 0 {
+    if counts.eye > 0 && counts.seen == 0 {
         args.common.remark("the camera sees no diffuse surface: there are no queries");
     }
     // Complete before the end block is: whoever has read that may read the picture.
@@ -154,10 +213,13 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         Picture { size, pixels: film.pixels() }.write(path, &mut file, &[])?;
         file.commit().with_context(|| path.display().to_string())?;
     }
-    let report = StageReport::new(typed.program())
+    let mut report = StageReport::new(typed.program())
         .with("eye_rays", Number::Count(counts.eye))
         .with("gather_rays", Number::Count(counts.gather))
         .with("gather_rays_lost", Number::Count(counts.gather_lost));
+    if options.min_gather_dist > 0.0 {
+        report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
+    }
     output.finish(vec![report])?.commit()
 }
 

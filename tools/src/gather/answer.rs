@@ -1,6 +1,6 @@
 //! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
 
-use super::{Outcome, RadianceEstimate};
+use super::{Outcome, RadianceEstimate, Scratch};
 use crate::film::{Film, Overflow};
 use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
 use pm_formats::trace::{BlockEncoder, Coding, Region};
@@ -80,7 +80,7 @@ impl<M: PhotonMap> Answerer<'_, M> {
         let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { .. });
         let implied = self.reread && self.regions.is_some_and(|regions| regions.iter().any(walk));
         let mut visits = Visits::with_rereads(self.reread && !implied);
-        let mut scratch = vec![];
+        let mut scratch = Scratch::default();
         let mut encoder = self.regions.map(BlockEncoder::new);
         let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
         let mut counts = SearchCounts::default();

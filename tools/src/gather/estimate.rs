@@ -1,8 +1,11 @@
 //! The radiance estimate: flux of the nearest photons per area of the disc that holds them.
 //!
-//! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2, with the constant kernel.
+//! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2.
 
+use super::disc::{Disc, Stranger};
+use super::kernel::Kernel;
 use crate::photon_map::Nearest;
+use glam::{DVec3, Vec3};
 use pm_formats::{Bounds, Material, Photon, Query};
 use std::f64::consts::PI;
 
@@ -15,6 +18,30 @@ pub enum Estimator {
     Classic,
 }
 
+/// Which area the flux is divided by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Edges {
+    /// The part of the photons' disc on this side of the edges that photons round the corner show
+    Cut,
+    /// The whole disc, as in the textbook: dark at edges
+    Ignored,
+}
+
+/// What searches were made, and how photons become a radiance.
+#[derive(Clone, Copy, Debug)]
+pub struct EstimateOptions {
+    /// Photons searched for.
+    pub k: usize,
+    /// Largest distance at which a photon counts, in scene units.
+    pub max_dist: f32,
+    /// Which photons are summed.
+    pub estimator: Estimator,
+    /// How much each counts by its distance.
+    pub kernel: Kernel,
+    /// Which area the sum is divided by.
+    pub edges: Edges,
+}
+
 /// What became of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
@@ -24,7 +51,7 @@ pub enum Outcome {
     NoArea,
 }
 
-/// What the sum needs of a photon.
+/// What every sum needs of a photon.
 #[derive(Clone, Copy)]
 struct Flux {
     /// Flux times the number of emitted paths: mantissas of 8 bits, so exact.
@@ -35,13 +62,21 @@ struct Flux {
 
 /// Estimates radiance from the photons of one map.
 pub struct RadianceEstimate<'a> {
-    photons: Vec<Flux>,
+    flux: Vec<Flux>,
+    photons: &'a [Photon],
     materials: &'a [Material],
     emitted_paths: f64,
-    max_dist: f32,
-    estimator: Estimator,
+    options: EstimateOptions,
     /// Double-precision sums of k powers are exact, hence the same in any order.
     exact_sums: bool,
+}
+
+/// Room for the photons of one query, used again for the next.
+#[derive(Default)]
+pub struct Scratch {
+    /// On the query's own surface: id and squared distance.
+    own: Vec<(u32, f32)>,
+    strangers: Vec<Stranger>,
 }
 
 /// Photons whose surface is turned farther than this from the query's are left out of the sum: they lie round a corner
@@ -49,22 +84,14 @@ pub struct RadianceEstimate<'a> {
 const MIN_NORMAL_COSINE: f32 = 0.9;
 
 impl<'a> RadianceEstimate<'a> {
-    /// Prepares estimates from `photons`, whose flux is theirs divided by `emitted_paths`, with searches for `k` of them
-    /// within `max_dist`.
+    /// Prepares estimates from `photons`, whose flux is theirs divided by `emitted_paths`.
     #[must_use]
-    pub fn new(
-        photons: &[Photon],
-        materials: &'a [Material],
-        emitted_paths: u64,
-        k: usize,
-        max_dist: f32,
-        estimator: Estimator,
-    ) -> Self {
+    pub fn new(photons: &'a [Photon], materials: &'a [Material], emitted_paths: u64, options: EstimateOptions) -> Self {
         // Each power is an 8-bit mantissa times 2^exponent. As long as the exponents span few enough bits, a double's 53
         // hold every partial sum exactly.
         let exponents = || photons.iter().map(|photon| u32::from(photon.power[3])).filter(|&exponent| exponent > 0);
         let span = exponents().max().unwrap_or(0) - exponents().min().unwrap_or(0);
-        let exact_sums = span + 8 + usize::BITS - k.leading_zeros() <= 53;
+        let exact_sums = span + 8 + usize::BITS - options.k.leading_zeros() <= 53;
         #[expect(clippy::cast_possible_truncation, reason = "8-bit mantissas and |components| <= 1")]
         let flux = |photon: &Photon| Flux {
             power: photon.power().map(|x| x as f32),
@@ -72,66 +99,147 @@ impl<'a> RadianceEstimate<'a> {
         };
         #[expect(clippy::cast_precision_loss, reason = "path counts stay below 2^53")]
         let emitted_paths = emitted_paths.max(1) as f64;
-        Self { photons: photons.iter().map(flux).collect(), materials, emitted_paths, max_dist, estimator, exact_sums }
+        Self { flux: photons.iter().map(flux).collect(), photons, materials, emitted_paths, options, exact_sums }
     }
 
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
-    pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Vec<(u32, f32)>) -> Outcome {
-        let farthest = found.farthest();
+    pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
+        let EstimateOptions { max_dist, estimator, kernel, edges, .. } = self.options;
         // The photon that sets the radius, and the squared radius. Where the limit cuts the search short it sets the
         // radius itself and all photons count; with no limit, the farthest of the few photons there are does.
-        let (rim, radius_squared) = match farthest {
-            Some((distance, id)) if found.is_full() || self.max_dist.is_infinite() => (Some(id), distance),
-            _ => (None, self.max_dist * self.max_dist),
+        let (rim, radius_squared) = match found.farthest() {
+            Some((distance, id)) if found.is_full() || max_dist.is_infinite() => (Some(id), distance),
+            _ => (None, max_dist * max_dist),
         };
-        let rim = rim.filter(|_| self.estimator == Estimator::Unbiased);
+        let rim = rim.filter(|_| estimator == Estimator::Unbiased);
         if radius_squared.is_nan() || radius_squared <= 0.0 {
             return if found.is_empty() { Outcome::Radiance([0.0; 3]) } else { Outcome::NoArea };
         }
-        let flux = self.flux(query, found, rim, scratch);
-        let area = PI * f64::from(radius_squared);
+        let radius_squared = f64::from(radius_squared);
+        let surface = Surface { query, position: Vec3::from(query.position).as_dvec3(), radius: radius_squared.sqrt() };
+        let mut disc = Disc::new(Vec3::from(query.normal()).as_dvec3());
+        self.sort_out(&surface, found, rim, scratch);
+        // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
+        if edges == Edges::Cut && radius_squared.is_finite() && !scratch.strangers.is_empty() {
+            disc.cut(&scratch.strangers);
+            if !disc.is_whole() {
+                scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
+            }
+        }
+        let area = radius_squared * disc.integral(kernel);
         let material = &self.materials[usize::from(query.material)];
-        let radiance = [0, 1, 2].map(|channel| {
-            let irradiance = flux[channel] / (area * self.emitted_paths);
-            f64::from(query.weight[channel]) * (f64::from(material.diffuse[channel]) / PI) * irradiance
-        });
-        Outcome::Radiance(radiance)
+        let reflected = self.reflected(&surface, material, &mut scratch.own);
+        Outcome::Radiance(
+            [0, 1, 2]
+                .map(|channel| f64::from(query.weight[channel]) * reflected[channel] / (area * self.emitted_paths)),
+        )
     }
 
-    /// Sum of the powers that arrive on the query's side of its surface, `rim` left out.
-    fn flux(&self, query: &Query, found: &Nearest, rim: Option<u32>, scratch: &mut Vec<(u32, f32)>) -> [f64; 3] {
-        let normal = query.normal();
-        let counts = |id: u32| {
-            let n = self.photons[id as usize].normal;
+    /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
+    fn sort_out(&self, surface: &Surface<'_>, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
+        let normal = surface.query.normal();
+        let wanted = self.options.edges == Edges::Cut;
+        scratch.own.clear();
+        scratch.strangers.clear();
+        for (distance, id) in found.iter() {
+            let n = self.flux[id as usize].normal;
             let cosine = f32::from(n[0]) * normal[0] + f32::from(n[1]) * normal[1] + f32::from(n[2]) * normal[2];
-            cosine > MIN_NORMAL_COSINE * 127.0 && Some(id) != rim
-        };
-        let mut sum = [0f64; 3];
-        let mut add = |id: u32| {
-            let power = self.photons[id as usize].power;
-            (0..3).for_each(|channel| sum[channel] += f64::from(power[channel]));
-        };
-        if self.exact_sums {
-            found.iter().filter(|&(_, id)| counts(id)).for_each(|(_, id)| add(id));
-        } else {
-            // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
-            scratch.clear();
-            scratch.extend(found.iter().filter(|&(_, id)| counts(id)).map(|(distance, id)| (id, distance)));
-            scratch.sort_unstable_by_key(|&(id, _)| id);
-            scratch.iter().for_each(|&(id, _)| add(id));
+            if cosine > MIN_NORMAL_COSINE * 127.0 {
+                if Some(id) != rim {
+                    scratch.own.push((id, distance));
+                }
+            } else if wanted {
+                let photon = &self.photons[id as usize];
+                let normal = Vec3::from(photon.normal()).as_dvec3();
+                scratch.strangers.push(Stranger { rank: (distance, id), offset: surface.offset(photon), normal });
+            }
         }
-        sum
+    }
+
+    /// Sum over photons of kernel weight x BRDF x power.
+    fn reflected(&self, surface: &Surface<'_>, material: &Material, own: &mut [(u32, f32)]) -> [f64; 3] {
+        let kernel = self.options.kernel;
+        let lobe = Lobe::of(material, surface.query);
+        let diffuse = material.diffuse.map(|share| f64::from(share) / PI);
+        let exact = self.exact_sums && kernel == Kernel::Constant && lobe.is_none();
+        if !exact {
+            // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
+            own.sort_unstable_by_key(|&(id, _)| id);
+        }
+        // Where every photon counts alike the BRDF waits until the powers are summed, exactly.
+        let mut sum = [0f64; 3];
+        for &(id, distance) in &*own {
+            let power = self.flux[id as usize].power;
+            let weight = match kernel {
+                Kernel::Constant => 1.0,
+                _ => kernel.weight(f64::from(distance).sqrt() / surface.radius),
+            };
+            match &lobe {
+                None => (0..3).for_each(|channel| sum[channel] += weight * f64::from(power[channel])),
+                Some(lobe) => {
+                    let glossy = lobe.brdf(self.photons[id as usize].towards_source());
+                    for channel in 0..3 {
+                        sum[channel] += weight * f64::from(power[channel]) * (diffuse[channel] + glossy[channel]);
+                    }
+                }
+            }
+        }
+        if lobe.is_none() { [0, 1, 2].map(|channel| sum[channel] * diffuse[channel]) } else { sum }
     }
 
     /// Radiance that the photons' flux suggests for a scene of these bounds: the scale for a [`Film`](crate::film::Film).
     #[must_use]
     pub fn scale(&self, bounds: &Bounds) -> f64 {
         let mut flux = [0f64; 3];
-        for photon in &self.photons {
+        for photon in &self.flux {
             (0..3).for_each(|channel| flux[channel] += f64::from(photon.power[channel]) / self.emitted_paths);
         }
         let side = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
         flux.into_iter().fold(0.0, f64::max) / (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>()
+    }
+}
+
+/// Where a query asks.
+struct Surface<'a> {
+    query: &'a Query,
+    position: DVec3,
+    radius: f64,
+}
+
+impl Surface<'_> {
+    /// Where a photon is, from the query, in radii.
+    fn offset(&self, photon: &Photon) -> DVec3 {
+        (Vec3::from(photon.position).as_dvec3() - self.position) / self.radius
+    }
+}
+
+/// The glossy part of a BRDF: Phong's lobe about the mirrored direction of view, normalised as in Lafortune and Willems,
+/// *Using the Modified Phong Reflectance Model for Physically Based Rendering*, 1994, equation 10.
+struct Lobe {
+    /// Specular reflectance times (n + 2) / (2 pi), per steradian.
+    peak: [f64; 3],
+    exponent: f64,
+    mirrored_view: DVec3,
+}
+
+impl Lobe {
+    fn of(material: &Material, query: &Query) -> Option<Self> {
+        if material.specular.iter().all(|&share| share <= 0.0) {
+            return None;
+        }
+        let exponent = f64::from(material.exponent);
+        let (normal, view) = (Vec3::from(query.normal()).as_dvec3(), Vec3::from(query.view()).as_dvec3());
+        Some(Self {
+            peak: material.specular.map(|share| f64::from(share) * (exponent + 2.0) / (2.0 * PI)),
+            exponent,
+            mirrored_view: normal * (2.0 * normal.dot(view)) - view,
+        })
+    }
+
+    fn brdf(&self, towards_source: [f32; 3]) -> [f64; 3] {
+        let cosine = self.mirrored_view.dot(Vec3::from(towards_source).as_dvec3()).clamp(0.0, 1.0);
+        let lobe = libm::pow(cosine, self.exponent);
+        self.peak.map(|peak| peak * lobe)
     }
 }

@@ -1,11 +1,13 @@
-//! Queries: eye rays through the pixels, and from where they end a hemisphere of gather rays each.
+//! Queries: from the points that the eye sees a hemisphere of gather rays each, or the points themselves.
 //!
 //! Steinhurst, Coombe, Lastra, *Reordering for Cache Conscious Photon Mapping*, GI 2005, Fig. 3 and Fig. 5.
 
 use super::Purpose;
-use super::lights::{Lights, direct_random};
+use super::eye::{Eye, Leaf, choose};
+use super::lights::Lights;
 use super::photon_paths::patience;
-use super::sampling::{cosine_direction, grid};
+use super::reflection::{Reflection, Spread, spread_shares};
+use super::sampling::grid;
 use super::scatter::specular;
 use super::surface::{Stage, SurfacePoint};
 use crate::order::Leaves;
@@ -17,16 +19,35 @@ use pm_formats::Query;
 /// How queries are made.
 #[derive(Clone, Copy, Debug)]
 pub struct GatherOptions {
+    /// What is asked of the photon map.
+    pub method: Method,
+    /// Eye rays for each pixel: one goes through its middle, more are spread over it.
+    pub samples: u32,
     /// Gather rays from each point seen.
     pub gathers: u32,
+    /// How their directions are chosen.
+    pub spread: Spread,
+    /// Gather rays shorter than this, in scene units, are continued by one more bounce.
+    pub min_gather_dist: f32,
     /// Shadow rays from each point seen, for direct light.
     pub light_samples: u32,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Is direct light wanted at all? It changes no query.
+    /// Is light wanted that needs no query? It changes no query.
     pub direct: bool,
     /// In which order the strata of a point are visited.
     pub strata: Strata,
+    /// Does light count that comes to a point seen from a lamp through mirrors and glass? Not where a caustic map holds it.
+    pub caustics: bool,
+}
+
+/// What is asked of the photon map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// What gather rays from the points seen meet: all light but that straight from the lamps.
+    FinalGather,
+    /// The points seen themselves: all light that they reflect, as the map's photons hold that from the lamps as well.
+    DirectVisualisation,
 }
 
 /// In which order the strata of a hemisphere are visited; the rays are the same.
@@ -43,17 +64,23 @@ pub enum Strata {
 pub struct RayCounts {
     /// Eye rays, with their reflections and refractions.
     pub eye: u64,
+    /// Points seen where light is spread.
+    pub seen: u64,
     /// Gather rays, not counting their reflections and refractions.
     pub gather: u64,
     /// Gather rays that left the scene or ended where there is nothing to ask for.
     pub gather_lost: u64,
+    /// Gather rays that were too short and were continued.
+    pub gather_continued: u64,
 }
 
 impl std::ops::AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
         self.eye += other.eye;
+        self.seen += other.seen;
         self.gather += other.gather;
         self.gather_lost += other.gather_lost;
+        self.gather_continued += other.gather_continued;
     }
 }
 
@@ -61,41 +88,35 @@ impl std::ops::AddAssign for RayCounts {
 pub struct GatherRays<'a> {
     stage: Stage<'a>,
     lights: Lights,
-    camera: Camera,
+    eye: Eye,
     options: GatherOptions,
     strata: (u32, u32),
 }
 
-/// A point seen, with what share of its radiance the pixel gets.
-struct Leaf {
+/// Where a gather ray ends.
+struct End {
     point: SurfacePoint,
-    share: Vec3,
-    behind_specular: bool,
+    /// Unit vector back along the ray.
+    view: Vec3,
+    /// What is left of the ray's weight.
+    weight: Vec3,
+    /// Length of the ray, its reflections and refractions included.
+    length: f32,
 }
-
-/// Times that an eye ray is split at glass; after that one of its ways is chosen at random.
-const SPLITS: u32 = 2;
-/// Most points seen in one pixel sample.
-const MAX_LEAVES: u32 = 1 << SPLITS;
 
 impl<'a> GatherRays<'a> {
     /// Rays of a picture of `scene`.
     #[must_use]
     pub fn new(scene: &'a Scene, camera: Camera, options: GatherOptions) -> Self {
         let strata = grid(options.gathers.max(1));
-        Self { stage: Stage::new(scene), lights: Lights::new(scene), camera, options, strata }
-    }
-
-    /// Most queries that a pixel can have.
-    #[must_use]
-    pub const fn most_queries_per_pixel(&self) -> u64 {
-        self.options.gathers as u64 * MAX_LEAVES as u64
+        let eye = Eye { camera, seed: options.seed, samples: options.samples.max(1) };
+        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata }
     }
 
     /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
-    /// and light that needs no query (what is emitted or comes straight from the lights) to `light`.
+    /// and light that needs no query (what is emitted or, with final gather, comes straight from the lights) to `light`.
     ///
-    /// A query's sample number is `leaf * gathers + stratum`.
+    /// A query's sample number is `(leaf * samples + sample) * gathers + stratum`.
     pub fn pixel(
         &self,
         x: u32,
@@ -105,7 +126,7 @@ impl<'a> GatherRays<'a> {
         mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let pixel = y * self.camera.size()[0] + x;
+        let pixel = y * self.eye.camera.size()[0] + x;
         // Light seen by eye belongs to the pass that visits every pixel.
         let first_pass = leaves != Leaves::BehindSpecular;
         let mut found = vec![];
@@ -114,60 +135,22 @@ impl<'a> GatherRays<'a> {
                 light(radiance);
             }
         };
-        let mut ignored = RayCounts::default();
-        self.see(x, y, pixel, &mut found, &mut eye_light, if first_pass { counts } else { &mut ignored });
-        for (leaf, number) in found.iter().zip(0..) {
+        let eye_rays = self.eye.see(&self.stage, x, y, &mut found, &mut eye_light);
+        if first_pass {
+            counts.eye += eye_rays;
+        }
+        for leaf in &found {
             let wanted = match leaves {
                 Leaves::All => true,
                 Leaves::Direct => !leaf.behind_specular,
                 Leaves::BehindSpecular => leaf.behind_specular,
             };
             if wanted {
-                self.gather(pixel, number, leaf, &mut query, &mut light, counts);
-            }
-        }
-    }
-
-    /// Follows the eye ray of a pixel to the points seen, through mirrors and glass.
-    fn see(
-        &self,
-        x: u32,
-        y: u32,
-        pixel: u32,
-        leaves: &mut Vec<Leaf>,
-        light: &mut impl FnMut(Vec3),
-        counts: &mut RayCounts,
-    ) {
-        let (eye, direction) = self.camera.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let random = &mut Random::new(&[self.options.seed, Purpose::EyePath as u64, u64::from(pixel)]);
-        // Rays yet to be followed: origin, direction, share, splits left, specular hits so far.
-        let mut rays = vec![(eye, direction, Vec3::ONE, SPLITS, 0u32)];
-        while let Some((origin, direction, share, splits, hits)) = rays.pop() {
-            counts.eye += 1;
-            let Some(point) = self.stage.hit(origin, direction) else { continue };
-            let material = self.stage.material(&point);
-            if material.emits() && point.facing == point.front {
-                light(share * Vec3::from(material.emission));
-            }
-            if Vec3::from(material.diffuse).max_element() > 0.0 {
-                leaves.push(Leaf { point, share, behind_specular: hits > 0 });
-            }
-            let Some(patient) = patience(hits, random) else { continue };
-            let ways = specular(material, &point, direction);
-            let mut follow = |direction: Vec3, share: Vec3, splits: u32| {
-                if share.max_element() > 0.0 {
-                    rays.push((point.start(direction), direction, share * patient, splits, hits + 1));
-                }
-            };
-            match ways {
-                [Some(reflected), Some(refracted)] if splits > 0 => {
-                    // Pushed last, followed first: what is seen through glass comes before what it reflects.
-                    follow(reflected.direction, share * reflected.share, splits - 1);
-                    follow(refracted.direction, share * refracted.share, splits - 1);
-                }
-                _ => {
-                    if let Some((way, weight)) = choose(ways, random) {
-                        follow(way.direction, share * way.share * weight, splits);
+                counts.seen += 1;
+                match self.options.method {
+                    Method::FinalGather => self.gather(pixel, leaf, &mut query, &mut light, counts),
+                    Method::DirectVisualisation => {
+                        query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
                     }
                 }
             }
@@ -178,22 +161,19 @@ impl<'a> GatherRays<'a> {
     fn gather(
         &self,
         pixel: u32,
-        number: u32,
         leaf: &Leaf,
         query: &mut impl FnMut(Query),
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let GatherOptions { gathers, light_samples, seed, direct, .. } = self.options;
-        let point = &leaf.point;
-        let reflectance = Vec3::from(self.stage.material(point).diffuse);
+        let GatherOptions { gathers, light_samples, seed, direct, spread, min_gather_dist, .. } = self.options;
+        let (point, number) = (&leaf.point, leaf.number);
+        let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
         if direct {
-            let random = &mut direct_random(seed, pixel, number);
-            let irradiance = self.lights.irradiance(&self.stage, point, light_samples, random);
-            light(leaf.share * reflectance * irradiance / std::f32::consts::PI);
+            let random = &mut Random::new(&[seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(number)]);
+            let brdf = |towards: Vec3| reflection.brdf(towards);
+            light(leaf.share * self.lights.reflected(&self.stage, point, light_samples, random, brdf));
         }
-        // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-        let share = leaf.share * reflectance / gathers as f32;
         let mut strata: Vec<u32> = (0..gathers).collect();
         if self.options.strata == Strata::Shuffled {
             let key = |stratum: &u32| {
@@ -209,75 +189,99 @@ impl<'a> GatherRays<'a> {
             let (rows, columns) = self.strata;
             let u = ((stratum / columns) as f32 + random.unit()) / rows as f32;
             let v = ((stratum % columns) as f32 + random.unit()) / columns as f32;
-            let direction = cosine_direction(point.facing, u.min(1.0), v);
-            match self.follow(point.start(direction), direction, share, light, random) {
-                Some((end, view, weight)) => {
-                    let (normal, view) = Query::pack_vectors(end.facing.into(), view.into());
-                    query(Query {
-                        position: end.position.into(),
-                        normal,
-                        view,
-                        material: end.material,
-                        flags: 0,
-                        pixel,
-                        sample,
-                        weight: weight.into(),
-                    });
+            // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
+            let end = reflection.sample(spread, u.min(1.0), v, random).and_then(|(direction, weight)| {
+                let share = leaf.share * weight / gathers as f32;
+                let end = self.follow(point, direction, share, self.options.caustics, light, random)?;
+                if end.length >= min_gather_dist {
+                    return Some(end);
                 }
+                counts.gather_continued += 1;
+                let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
+                self.continued(&end, light, random, &mut Random::new(&key))
+            });
+            match end {
+                Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
                 None => counts.gather_lost += 1,
             }
         }
     }
 
-    /// Follows a gather ray through mirrors and glass to the diffuse surface where it ends: the point, the direction
-    /// back, and what is left of the ray's weight.
-    fn follow(
+    /// One bounce further: direct light at the end of a ray that was too short goes to `light`, and what comes there
+    /// from elsewhere is asked for where one ray from there ends.
+    ///
+    /// Near a corner a ray may end within the photons' disc of where it began, and then what it finds is blotched like
+    /// the map itself: Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 8.5 (who traces on there).
+    fn continued(
         &self,
-        mut origin: Vec3,
-        mut direction: Vec3,
-        mut share: Vec3,
+        end: &End,
         light: &mut impl FnMut(Vec3),
         random: &mut Random,
-    ) -> Option<(SurfacePoint, Vec3, Vec3)> {
+        for_light: &mut Random,
+    ) -> Option<End> {
+        let reflection = Reflection::new(self.stage.material(&end.point), end.point.facing, end.view);
+        if self.options.direct {
+            let brdf = |towards: Vec3| reflection.brdf(towards);
+            light(end.weight * self.lights.reflected(&self.stage, &end.point, 1, for_light, brdf));
+        }
+        let (u, v) = (random.unit(), random.unit());
+        let (direction, weight) = reflection.sample(Spread::Cosine, u, v, random)?;
+        self.follow(&end.point, direction, end.weight * weight, true, light, random)
+    }
+
+    /// Follows a gather ray through mirrors and glass to the surface where it ends, one that spreads light.
+    /// Lamps met on the way count if `lamps` is true.
+    fn follow(
+        &self,
+        start: &SurfacePoint,
+        mut direction: Vec3,
+        mut share: Vec3,
+        lamps: bool,
+        light: &mut impl FnMut(Vec3),
+        random: &mut Random,
+    ) -> Option<End> {
+        let (mut from, mut length) = (*start, 0.0);
         for hits in 0.. {
-            let point = self.stage.hit(origin, direction)?;
+            let point = self.stage.hit(from.start(direction), direction)?;
+            length += point.position.distance(from.position);
             let material = self.stage.material(&point);
             // A light met directly is counted by the shadow rays; met in a mirror or through glass, only here.
-            if hits > 0 && self.options.direct && material.emits() && point.facing == point.front {
+            if hits > 0 && lamps && self.options.direct && material.emits() && point.facing == point.front {
                 light(share * Vec3::from(material.emission));
             }
-            let diffuse = Vec3::from(material.diffuse).max_element();
+            let (diffuse, lobe) = spread_shares(material);
+            let spread = diffuse.max_element() + lobe.max_element();
             let ways = specular(material, &point, direction);
             let specular_share: f32 = ways.iter().flatten().map(|way| way.share.max_element()).sum();
             // A surface that is both is one or the other for this ray.
-            let total = diffuse + specular_share;
+            let total = spread + specular_share;
             if total <= 0.0 {
                 return None;
             }
-            if random.unit() * total < diffuse {
-                return Some((point, -direction, share * (total / diffuse)));
+            if random.unit() * total < spread {
+                return Some(End { point, view: -direction, weight: share * (total / spread), length });
             }
             let (way, weight) = choose(ways, random)?;
             let patient = patience(hits, random)?;
             share *= way.share * (weight * patient * (total / specular_share));
-            origin = point.start(way.direction);
+            from = point;
             direction = way.direction;
         }
         None
     }
 }
 
-/// Chooses one of the specular ways in proportion to its largest share; the weight makes up for the choice.
-fn choose(ways: [Option<super::scatter::Specular>; 2], random: &mut Random) -> Option<(super::scatter::Specular, f32)> {
-    match ways {
-        [Some(first), Some(second)] => {
-            let (a, b) = (first.share.max_element(), second.share.max_element());
-            let total = a + b;
-            if total <= 0.0 {
-                return None;
-            }
-            Some(if random.unit() * total < a { (first, total / a) } else { (second, total / b) })
-        }
-        [way, other] => way.or(other).map(|way| (way, 1.0)),
+/// A query for the radiance that a point sends along `view`.
+fn query_at(point: &SurfacePoint, view: Vec3, pixel: u32, sample: u32, weight: Vec3) -> Query {
+    let (normal, view) = Query::pack_vectors(point.facing.into(), view.into());
+    Query {
+        position: point.position.into(),
+        normal,
+        view,
+        material: point.material,
+        flags: 0,
+        pixel,
+        sample,
+        weight: weight.into(),
     }
 }

@@ -1,6 +1,5 @@
 //! Lights: which triangle, and where on it.
 
-use super::Purpose;
 use super::sampling::triangle_point;
 use super::surface::{Stage, SurfacePoint};
 use crate::random::Random;
@@ -67,17 +66,18 @@ impl Lights {
         Chosen { light: &self.triangles[at.min(self.triangles.len() - 1)] }
     }
 
-    /// Radiance that a diffuse point reflects of light that comes straight from the lights: the mean over `samples`
-    /// shadow rays, without the point's reflectance.
+    /// Radiance that a point reflects of light that comes straight from the lights, the mean over `samples` shadow rays;
+    /// `brdf` is its BRDF for a direction towards a light. With a BRDF of 1 this is the irradiance.
     ///
     /// Samples are strata of the total power; where they lie on the lights is a low-discrepancy sequence, shifted at
     /// random so that each sample by itself is spread evenly.
-    pub(super) fn irradiance(
+    pub(super) fn reflected(
         &self,
         stage: &Stage<'_>,
         point: &SurfacePoint,
         samples: u32,
         random: &mut Random,
+        brdf: impl Fn(Vec3) -> Vec3,
     ) -> Vec3 {
         if self.is_empty() || samples == 0 {
             return Vec3::ZERO;
@@ -98,7 +98,7 @@ impl Lights {
             // cos cos' / d^2 over the density 1 / area; `way` is not normalised, hence d^4.
             let geometry = f64::from(cosine_here) * f64::from(cosine_there) / f64::from(way.length_squared()).powi(2);
             let weight = geometry * chosen.light.area / (chosen.light.probability * f64::from(samples));
-            sum += chosen.light.radiance * weight as f32;
+            sum += chosen.light.radiance * brdf(way.normalize()) * weight as f32;
         }
         sum
     }
@@ -115,9 +115,4 @@ impl Chosen<'_> {
     pub(super) fn path_flux(&self) -> Vec3 {
         Vec3::from(self.light.flux.map(|flux| (flux / self.light.probability) as f32))
     }
-}
-
-/// The random numbers of the direct light at one leaf of a pixel.
-pub(super) fn direct_random(seed: u64, pixel: u32, leaf: u32) -> Random {
-    Random::new(&[seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(leaf)])
 }

@@ -5,6 +5,7 @@
 
 use super::Purpose;
 use super::lights::Lights;
+use super::reflection::{Reflection, spread_shares, spreads};
 use super::sampling::cosine_direction;
 use super::scatter::specular;
 use super::surface::Stage;
@@ -24,6 +25,8 @@ pub struct PathPhoton {
     pub towards_source: Vec3,
     /// Unit normal of the surface, on the side it came from.
     pub normal: Vec3,
+    /// Did it come from the light by mirrors and glass alone, and by one of them at least?
+    pub caustic: bool,
 }
 
 /// Paths of photons through a scene.
@@ -67,15 +70,22 @@ impl<'a> PhotonPaths<'a> {
         let (mut origin, normal) = light.point(&self.stage, random);
         let mut direction = cosine_direction(normal, random.unit(), random.unit());
         let mut specular_hits = 0;
+        let mut spread_before = false;
         while let Some(point) = self.stage.hit(origin, direction) {
             let material = self.stage.material(&point);
-            let diffuse = Vec3::from(material.diffuse);
-            if diffuse.max_element() > 0.0 {
-                store(PathPhoton { position: point.position, power, towards_source: -direction, normal: point.facing });
+            let (diffuse, lobe) = spread_shares(material);
+            if spreads(material) {
+                store(PathPhoton {
+                    position: point.position,
+                    power,
+                    towards_source: -direction,
+                    normal: point.facing,
+                    caustic: specular_hits > 0 && !spread_before,
+                });
             }
             // One of the ways on is chosen, with a probability equal to the largest channel of what it carries.
             let ways = specular(material, &point, direction);
-            let chances = [diffuse.max_element()]
+            let chances = [diffuse.max_element(), lobe.max_element()]
                 .into_iter()
                 .chain(ways.iter().map(|way| way.map_or(0.0, |way| way.share.max_element())));
             let total: f32 = chances.clone().sum();
@@ -91,11 +101,19 @@ impl<'a> PhotonPaths<'a> {
                 0 if diffuse.max_element() > 0.0 => {
                     power *= diffuse * weight(diffuse.max_element());
                     direction = cosine_direction(point.facing, random.unit(), random.unit());
-                    specular_hits = 0;
+                    (specular_hits, spread_before) = (0, true);
+                }
+                0 | 1 if lobe.max_element() > 0.0 => {
+                    let reflection = Reflection::new(material, point.facing, -direction);
+                    // What the lobe sends below the surface is absorbed.
+                    let Some((out, share)) = reflection.sample_lobe(random.unit(), random.unit()) else { return };
+                    power *= share * weight(lobe.max_element());
+                    direction = out;
+                    (specular_hits, spread_before) = (0, true);
                 }
                 way => {
                     // Rounding may have passed over the last way: then it is the last there is.
-                    let way = ways[way.saturating_sub(1)].or(ways[0]);
+                    let way = ways[way.saturating_sub(2)].or(ways[0]);
                     let Some(way) = way else { return };
                     let Some(patient) = patience(specular_hits, random) else { return };
                     power *= way.share * (weight(way.share.max_element()) * patient);

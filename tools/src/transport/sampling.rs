@@ -12,6 +12,28 @@ pub(super) fn cosine_direction(normal: Vec3, u: f32, v: f32) -> Vec3 {
     (x * (sin * cos_phi) + y * (sin * sin_phi) + normal * cos).normalize()
 }
 
+/// A direction about `normal`, spread evenly over the hemisphere, from two numbers in [0, 1).
+#[must_use]
+pub(super) fn uniform_direction(normal: Vec3, u: f32, v: f32) -> Vec3 {
+    // 1 - u and not u: the first number is the elevation from the normal outward, as for the cosine.
+    around(normal, 1.0 - u, v)
+}
+
+/// A direction about `axis`, distributed as the n-th power of the cosine of the angle to it (Lafortune and Willems, 1994,
+/// equation 8); it may lie below the surface.
+#[must_use]
+pub(super) fn phong_direction(axis: Vec3, exponent: f32, u: f32, v: f32) -> Vec3 {
+    around(axis, libm::powf(1.0 - u, 1.0 / (exponent + 1.0)), v)
+}
+
+/// The direction at an angle to `axis` whose cosine is `cos`, at the share `v` of a turn about it.
+fn around(axis: Vec3, cos: f32, v: f32) -> Vec3 {
+    let sin = ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
+    let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);
+    let (x, y) = frame(axis);
+    (x * (sin * cos_phi) + y * (sin * sin_phi) + axis * cos).normalize()
+}
+
 /// Two unit vectors that complete `normal` to a right-handed frame.
 ///
 /// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: *Building an Orthonormal Basis, Revisited*, JCGT 6(1), 2017.

@@ -13,10 +13,14 @@ fn shipped(name: &str) -> (Scene, PathBuf) {
 }
 
 fn written(obj: &str, mtl: &str) -> Scene {
+    written_with(obj, mtl, &LoadOptions::default())
+}
+
+fn written_with(obj: &str, mtl: &str, options: &LoadOptions) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("t.mtl"), mtl).unwrap();
     std::fs::write(folder.path().join("t.obj"), format!("mtllib t.mtl\n{obj}")).unwrap();
-    Scene::load(&[folder.path().join("t.obj")], &LoadOptions::default()).unwrap()
+    Scene::load(&[folder.path().join("t.obj")], options).unwrap()
 }
 
 /// A box from `min` to `max` of one material, its faces turned outward or inward.
@@ -252,7 +256,23 @@ fn packing_keeps_the_sum_of_powers() {
 fn rays(scene: &Scene, path: &Path, gathers: u32, strata: Strata) -> (Vec<pm_formats::Query>, Vec<Vec3>, Camera) {
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
     let camera = Camera::find(&[path.to_owned()], &scene.bounds, &overrides).unwrap().camera;
-    let options = GatherOptions { gathers, light_samples: 4, seed: 9, direct: true, strata };
+    rays_with(scene, camera, GatherOptions { gathers, strata, ..OPTIONS })
+}
+
+const OPTIONS: GatherOptions = GatherOptions {
+    method: Method::FinalGather,
+    samples: 1,
+    gathers: 1,
+    spread: Spread::Cosine,
+    min_gather_dist: 0.0,
+    light_samples: 4,
+    seed: 9,
+    direct: true,
+    strata: Strata::Raster,
+    caustics: true,
+};
+
+fn rays_with(scene: &Scene, camera: Camera, options: GatherOptions) -> (Vec<pm_formats::Query>, Vec<Vec3>, Camera) {
     let rays = GatherRays::new(scene, camera, options);
     let (mut queries, mut light) = (vec![], vec![Vec3::ZERO; 24 * 20]);
     let mut counts = RayCounts::default();
@@ -262,7 +282,9 @@ fn rays(scene: &Scene, path: &Path, gathers: u32, strata: Strata) -> (Vec<pm_for
             rays.pixel(x, y, Leaves::All, |query| queries.push(query), |l| light[pixel] += l, &mut counts);
         }
     }
-    assert_eq!(counts.gather - counts.gather_lost, queries.len() as u64);
+    if options.method == Method::FinalGather {
+        assert_eq!(counts.gather - counts.gather_lost, queries.len() as u64);
+    }
     (queries, light, camera)
 }
 
@@ -317,11 +339,172 @@ fn direct_light_of_the_diffuse_box_is_that_of_a_path_tracer() {
         let mut sum = DVec3::ZERO;
         for i in 0..n {
             let random = &mut Random::new(&[i]);
-            sum += lights.irradiance(&stage, &point, 16, random).as_dvec3() / n as f64;
+            sum += lights.reflected(&stage, &point, 16, random, |_| Vec3::ONE).as_dvec3() / n as f64;
         }
         for channel in 0..3 {
             let (found, expected) = (sum[channel], expected[channel]);
             assert!((found - expected).abs() < 0.004 * expected + 1e-4, "{position}: {sum} for {expected}");
         }
     }
+}
+
+fn camera(path: &Path) -> Camera {
+    let (scene, overrides) = (Scene::load(&[path.to_owned()], &LoadOptions::default()).unwrap(), [24, 20]);
+    let overrides = CameraOverrides { size: Some(overrides), ..CameraOverrides::default() };
+    Camera::find(&[path.to_owned()], &scene.bounds, &overrides).unwrap().camera
+}
+
+/// Sum over all pixels of the queries' weights.
+fn total(queries: &[pm_formats::Query]) -> glam::DVec3 {
+    queries.iter().map(|query| Vec3::from(query.weight).as_dvec3()).sum()
+}
+
+#[test]
+fn direct_visualisation_asks_once_at_each_point_seen_and_leaves_direct_light_to_the_map() {
+    let (scene, path) = shipped("furnace.obj");
+    let options = GatherOptions { method: Method::DirectVisualisation, ..OPTIONS };
+    let (queries, light, _) = rays_with(&scene, camera(&path), options);
+    assert_eq!(queries.len(), 24 * 20);
+    assert!(queries.iter().all(|query| query.weight == [1.0; 3] && query.sample == 0));
+    // The walls' own emission, once, and nothing of what they reflect.
+    assert!(light.iter().all(|&light| light == Vec3::ONE));
+}
+
+#[test]
+fn uniform_rays_carry_the_same_weight_in_the_mean() {
+    let (scene, path) = shipped("furnace.obj");
+    let weight = |spread| {
+        let (queries, ..) = rays_with(&scene, camera(&path), GatherOptions { gathers: 64, spread, ..OPTIONS });
+        total(&queries) / (24.0 * 20.0)
+    };
+    let (cosine, uniform) = (weight(Spread::Cosine), weight(Spread::Uniform));
+    // The cosine's variance over an even hemisphere is 1/12; strata make it less.
+    assert!((uniform / cosine - 1.0).abs().max_element() < 0.005, "{uniform} {cosine}");
+}
+
+#[test]
+fn every_ray_of_a_pixel_has_a_number_of_its_own() {
+    let (scene, path) = shipped("cornell.obj");
+    let (queries, ..) = rays_with(&scene, camera(&path), GatherOptions { samples: 6, gathers: 4, ..OPTIONS });
+    let mut names: Vec<_> = queries.iter().map(|query| (query.pixel, query.sample)).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+    let places: std::collections::BTreeSet<_> = queries.iter().map(|query| query.position.map(f32::to_bits)).collect();
+    assert!(places.len() > queries.len() * 99 / 100, "samples of a pixel are not alike");
+}
+
+/// Where in the image a point is seen, in pixels: the camera's definition turned round.
+fn project(camera: &Camera, point: Vec3) -> (f64, f64) {
+    let forward = (camera.look_at() - camera.eye()).normalize();
+    let right = forward.cross(camera.up()).normalize();
+    let way = point - camera.eye();
+    let [width, height] = camera.size().map(f64::from);
+    let scale = height / 2.0 / f64::tan(camera.vfov().to_radians() / 2.0) / f64::from(way.dot(forward));
+    let up = right.cross(forward);
+    (width / 2.0 + f64::from(way.dot(right)) * scale, height / 2.0 - f64::from(way.dot(up)) * scale)
+}
+
+#[test]
+fn samples_share_the_pixel_and_stay_in_it() {
+    // Seen straight on, the position on the back wall tells where in the pixel a ray went: one in each cell of the grid.
+    let (scene, path) = shipped("furnace.obj");
+    let options = GatherOptions { method: Method::DirectVisualisation, samples: 6, ..OPTIONS };
+    let (queries, light, camera) = rays_with(&scene, camera(&path), options);
+    assert!(light.iter().all(|&light| (light - 1.0).abs().max_element() < 1e-6));
+    let mut cells = std::collections::BTreeSet::new();
+    for query in queries.iter().filter(|query| query.position[2] == -0.5) {
+        assert!((query.weight[0] - 1.0 / 6.0).abs() < 1e-6);
+        let (x, y) = project(&camera, Vec3::from(query.position));
+        let (dx, dy) = (x - f64::from(query.pixel % 24), y - f64::from(query.pixel / 24));
+        assert!((-1e-4..1.0001).contains(&dx) && (-1e-4..1.0001).contains(&dy), "{dx} {dy}");
+        cells.insert((query.pixel, (dx * 2.999_99) as u32 + 3 * (dy * 1.999_99) as u32));
+    }
+    let pixels: std::collections::BTreeSet<_> = cells.iter().map(|cell| cell.0).collect();
+    // Rounding may move a sample at a cell's border; pixels at the wall's own border are shared with other walls.
+    assert!(cells.len() * 20 > pixels.len() * 6 * 17, "{} cells in {} pixels", cells.len(), pixels.len());
+}
+
+#[test]
+fn short_rays_go_on_with_what_their_end_reflects() {
+    // In the furnace every ray is continued if all are short: weights are then those of two reflections, and the lamps'
+    // light at the first ends, 1 x rho^2, is in the base with what the walls reflect and emit themselves: the sum
+    // 1 + rho + rho^2 + rho^2 x L of whatever the map then holds beyond.
+    let (scene, path) = shipped("furnace.obj");
+    let options = GatherOptions { gathers: 36, min_gather_dist: f32::MAX, light_samples: 64, ..OPTIONS };
+    let (queries, light, _) = rays_with(&scene, camera(&path), options);
+    let pixels = 24.0 * 20.0;
+    let rho = DVec3::new(0.2, 0.5, 0.8);
+    assert!((total(&queries) / pixels / (rho * rho) - 1.0).abs().max_element() < 1e-4);
+    let base = light.iter().map(|light| light.as_dvec3()).sum::<DVec3>() / pixels;
+    let expected = 1.0 + rho + rho * rho;
+    // A shadow ray to one of twelve triangles around: noisy, and 17,280 of them.
+    assert!((base / expected - 1.0).abs().max_element() < 0.02, "{base} for {expected}");
+
+    // Between the two: rays that are continued are those that were short, the rest are untouched.
+    let plain = rays_with(&scene, camera(&path), GatherOptions { gathers: 36, ..OPTIONS }).0;
+    let some = rays_with(&scene, camera(&path), GatherOptions { gathers: 36, min_gather_dist: 0.2, ..OPTIONS }).0;
+    let same = plain.iter().zip(&some).filter(|(a, b)| a == b).count();
+    let share = same as f64 / plain.len() as f64;
+    assert!((0.5..0.95).contains(&share), "{share}");
+    assert!(plain.iter().zip(&some).all(|(a, b)| (a.pixel, a.sample) == (b.pixel, b.sample)));
+}
+
+#[test]
+fn a_glossy_body_in_a_furnace_neither_makes_nor_swallows_light() {
+    // Kd + Ks = 1. At so sharp a lobe what falls below the surface is a share of 1 / sqrt(n), of grazing light only.
+    let mtl = "newmtl wall\nKd 0.2 0.5 0.8\nKe 1 1 1\nillum 1\n\
+               newmtl paint\nKd 0.4 0.4 0.4\nKs 0.6 0.6 0.6\nNs 30000\nillum 2\n";
+    let obj = cuboid(1, -1.0, 1.0, "wall", false) + &cuboid(9, -0.4, 0.4, "paint", true);
+    let scene = written_with(&obj, mtl, &LoadOptions { glossy: true, ..LoadOptions::default() });
+    assert!(scene.materials.iter().any(|material| material.specular == [0.6; 3] && material.exponent == 30000.0));
+    let on_wall = |photon: &PathPhoton| usize::from(photon.position.abs().max_element() < 0.999);
+    let found = incident(&scene, 100_000, on_wall, 2);
+    // The walls catch what they emit and each other's reflections, wherever the body sends them.
+    assert_within_errors(found[0], [1.25, 2.0, 5.0], "glossy");
+    // And the body sees as much as anything of its area: flux = area ratio x that of the walls (both convex).
+    assert_within_errors(found[1], [0.16 * 1.25, 0.16 * 2.0, 0.16 * 5.0], "body");
+}
+
+#[test]
+fn gather_rays_of_glossy_points_carry_the_albedo() {
+    // A wall of paint seen from inside a closed cube: along the normal the weights add up to Kd + Ks.
+    let mtl = "newmtl paint\nKd 0.2 0.3 0.1\nKs 0.4 0.2 0.6\nNs 40\nillum 2\nnewmtl lamp\nKe 1 1 1\n";
+    let obj = cuboid(1, -1.0, 1.0, "paint", false) + &cuboid(9, 2.0, 2.1, "lamp", true);
+    let scene = written_with(&obj, mtl, &LoadOptions { glossy: true, ..LoadOptions::default() });
+    let view = CameraOverrides {
+        eye: Some([0.0, 0.0, 0.5]),
+        look_at: Some([0.0, 0.0, -1.0]),
+        vfov: Some(2.0),
+        size: Some([24, 20]),
+        ..CameraOverrides::default()
+    };
+    let camera = Camera::find(&[PathBuf::from("none.obj")], &scene.bounds, &view).unwrap().camera;
+    for spread in [Spread::Cosine, Spread::Uniform] {
+        let options = GatherOptions { gathers: 100, spread, ..OPTIONS };
+        let found = total(&rays_with(&scene, camera, options).0) / (24.0 * 20.0);
+        // The second surfaces are glossy too: queries, as on the first.
+        let expected = DVec3::new(0.6, 0.5, 0.7);
+        assert!((found - expected).abs().max_element() < 0.005, "{spread:?}: {found}");
+    }
+}
+
+#[test]
+fn caustics_are_what_came_by_mirrors_and_glass_alone() {
+    let (scene, _) = shipped("cornell.obj");
+    let paths = PhotonPaths::new(&scene, 1);
+    let (mut caustic, mut all) = (0, 0);
+    for path in 0..20_000 {
+        let mut first = true;
+        paths.trace(path, |photon| {
+            // A path has one caustic photon at most, and it is the first that is stored.
+            assert!(!photon.caustic || first);
+            first = false;
+            caustic += u32::from(photon.caustic);
+            all += 1;
+        });
+    }
+    assert!(caustic > 500 && caustic * 5 < all, "{caustic} of {all}");
+    let (diffuse, _) = shipped("cornell-diffuse.obj");
+    let paths = PhotonPaths::new(&diffuse, 1);
+    (0..2000).for_each(|path| paths.trace(path, |photon| assert!(!photon.caustic)));
 }
