@@ -4,6 +4,7 @@
 //! order of work. Transcendental functions come from `libm`, so recorded results are the same bytes on every x86-64.
 
 mod bvh;
+mod cache_records;
 mod eye;
 mod gather_rays;
 mod lights;
@@ -14,6 +15,7 @@ mod scatter;
 mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
+pub use cache_records::{CacheOptions, CacheRecords};
 pub use gather_rays::{GatherOptions, GatherRays, Method, RayCounts, Strata};
 pub use photon_paths::{PathPhoton, PhotonPaths};
 pub use reflection::Spread;
@@ -34,4 +36,5 @@ enum Purpose {
     StrataOrder = 6,
     LightAtShortEnd = 7,
     PixelSample = 8,
+    RecordRay = 9,
 }

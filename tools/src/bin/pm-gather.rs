@@ -3,13 +3,17 @@
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
 use pm_formats::trace::TraceWriter;
-use pm_formats::{BlockReader, End, Header, Kind, Number, Photon, RecordReader, StageReport, Step, Tally};
+use pm_formats::{
+    Block, BlockReader, End, Header, Kind, Number, Photon, RecordReader, Section, StageReport, Step, Tally,
+    decode_irradiance, decode_weights, tally_beside,
+};
 use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
 use pm_tools::film::Film;
 use pm_tools::gather::{
     Answered, Answerer, Edges, EstimateOptions, Estimator, Fault, Kernel, RadianceEstimate, SearchCounts,
 };
 use pm_tools::image::{Format, Picture};
+use pm_tools::irradiance::CachedIrradiance;
 use pm_tools::parallel::in_order;
 use pm_tools::photon_map::{BruteForce, KdTree, Layout, PhotonMap, Search, StartRadius};
 use std::path::{Path, PathBuf};
@@ -59,6 +63,9 @@ struct Args {
     /// Picture to write, .exr (linear) or .png (preview); may be given more than once
     #[arg(long, value_name = "FILE")]
     image: Vec<PathBuf>,
+    /// Take cached irradiance as it is at its record, without the gradients
+    #[arg(long)]
+    no_gradients: bool,
     /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
     #[arg(long, value_name = "FILE")]
     base: Option<PathBuf>,
@@ -166,7 +173,7 @@ fn gather(
     typed: &Typed,
     map: &impl PhotonMap,
     photons: &PhotonInput,
-    queries: BlockReader<Input>,
+    mut queries: BlockReader<Input>,
 ) -> anyhow::Result<()> {
     let k = args.k as usize;
     let search = match args.start_radius {
@@ -201,10 +208,13 @@ fn gather(
             edges: args.edges,
         },
     );
+    let name = named(&args.queries);
+    let (cache, first, beside) = read_cache(&mut queries, !args.no_gradients).with_context(|| name.clone())?;
     let scale = estimate.scale(&query_header.bounds);
     let wanted = !images.is_empty();
     let mut film = Film::new(if wanted { usize::try_from(query_header.pixels())? } else { 0 }, scale);
-    // The threads only need the film's unit.
+    let mut sums = Film::new(if wanted { cache.sums() } else { 0 }, scale);
+    // The threads only need the films' unit.
     let unit = Film::new(0, scale);
     let answerer = Answerer {
         search,
@@ -212,16 +222,19 @@ fn gather(
         header: &query_header,
         reread: args.reread,
         regions: trace.is_some().then_some(&header.regions[..]),
+        cache: &cache,
         estimate: wanted.then_some((&estimate, &unit)),
     };
 
     let queries = std::cell::RefCell::new(queries);
     let progress = Progress::new(query_header.expected_records, "queries", args.common.quiet);
-    let (mut tally, mut counts) = (Tally::default(), SearchCounts::default());
-    let name = named(&args.queries);
+    let (mut tally, mut counts, mut first) = (beside, SearchCounts::default(), first);
     in_order(
         args.common.threads(),
-        || queries.borrow_mut().next_block().with_context(|| name.clone()),
+        || match first.take() {
+            Some(block) => Ok(Some(block)),
+            None => queries.borrow_mut().next_block().with_context(|| name.clone()),
+        },
         |block| answerer.answer(&block),
         |answered: Result<Answered, Fault>| {
             let answered = answered.map_err(|fault| match fault {
@@ -234,6 +247,9 @@ fn gather(
             }
             for (pixel, units) in answered.contributions {
                 film.add(pixel, units)?;
+            }
+            for (sum, units) in answered.cached {
+                sums.add(sum, units)?;
             }
             progress.add(answered.tally.records);
             tally += answered.tally;
@@ -251,7 +267,15 @@ fn gather(
             counts.no_area, tally.records
         ));
     }
-    write_images(args, &query_header, &film, images)?;
+    let mut picture = Picture { size: query_header.image, pixels: film.pixels() };
+    if wanted && !cache.is_empty() {
+        // Like the base picture, which holds the light that comes without a search to all other points.
+        if args.base.is_some() {
+            cache.add_lights(&mut sums)?;
+        }
+        cache.interpolate(&sums, &mut picture.pixels);
+    }
+    write_images(args, picture, images)?;
     if let Some(trace) = trace {
         trace.finish(stages(typed, end, photons, &search, counts, tally))?.commit()?;
     }
@@ -280,11 +304,32 @@ fn stages(
     stages
 }
 
-fn write_images(args: &Args, header: &Header, film: &Film, images: Vec<(&PathBuf, Output)>) -> anyhow::Result<()> {
+/// Reads what stands before the first query: cached irradiance, if there is any. Also returns the first block of
+/// queries, and what was read for the digest.
+fn read_cache(
+    queries: &mut BlockReader<Input>,
+    gradients: bool,
+) -> pm_formats::Result<(CachedIrradiance, Option<Block>, Tally)> {
+    let (mut records, mut weights, mut tally) = (vec![], vec![], Tally::default());
+    let first = loop {
+        let Some(block) = queries.next_block()? else { break None };
+        let read = match block.section {
+            Section::Records => break Some(block),
+            Section::IrradianceRecords => decode_irradiance(&block).map(|more| records.extend(more)),
+            _ => decode_weights(&block).map(|more| weights.extend(more)),
+        };
+        let beside = read.and_then(|()| tally_beside(&block));
+        tally += beside.ok_or_else(|| queries.damaged("a block beside the queries does not hold what it says"))?;
+    };
+    let cache = CachedIrradiance::new(records, weights, queries.header().pixels(), gradients);
+    let cache = cache.ok_or_else(|| queries.damaged("a pixel takes irradiance that is not cached"))?;
+    Ok((cache, first, tally))
+}
+
+fn write_images(args: &Args, mut picture: Picture, images: Vec<(&PathBuf, Output)>) -> anyhow::Result<()> {
     if images.is_empty() {
         return Ok(());
     }
-    let mut picture = Picture { size: header.image, pixels: film.pixels() };
     if let Some(base) = &args.base {
         picture.add(&Picture::read_exr(base)?).with_context(|| base.display().to_string())?;
     }

@@ -2,14 +2,16 @@
 
 use anyhow::Context as _;
 use clap::Parser;
-use pm_formats::{BlockMeta, Number, Query, RecordWriter, StageReport};
-use pm_tools::cli::{self, Common, OutputArgs, Progress, Typed, create_output};
+use pm_formats::{
+    BLOCK_RECORDS, BlockMeta, Number, Query, RecordWriter, StageReport, encode_irradiance, encode_weights,
+};
+use pm_tools::cli::{self, Common, Output, OutputArgs, Progress, Typed, create_output};
 use pm_tools::film::{Film, Overflow};
 use pm_tools::image::{Format, Picture};
 use pm_tools::order::{Generative, Span};
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
-use pm_tools::transport::{GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
+use pm_tools::transport::{CacheOptions, CacheRecords, GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -53,6 +55,12 @@ struct Args {
     /// Also write the direct and emitted light as an EXR or PNG picture, before the stream ends
     #[arg(long, value_name = "FILE")]
     base: Option<PathBuf>,
+    /// Cache irradiance (Ward): gather only where no record serves with an error below A, such as 0.1; pixels interpolate
+    #[arg(long, value_name = "A", value_parser = accuracy, conflicts_with = "direct_visualisation")]
+    irradiance_cache: Option<f32>,
+    /// Least and greatest distance at which a record of cached irradiance still serves, in pixels
+    #[arg(long, value_name = "MIN,MAX", default_value = "3,20", value_parser = spacing)]
+    spacing: [f32; 2],
     /// Shadow rays for each point seen, for the direct light
     #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     light_samples: u32,
@@ -106,6 +114,17 @@ fn main() -> ExitCode {
     cli::main("pm-queries", run)
 }
 
+fn accuracy(text: &str) -> Result<f32, String> {
+    let error = "an error above 0 and at most 1 is expected, such as 0.1";
+    text.parse().ok().filter(|&a: &f32| a > 0.0 && a <= 1.0).ok_or_else(|| error.into())
+}
+
+fn spacing(text: &str) -> Result<[f32; 2], String> {
+    let parsed = text.split_once(',').and_then(|(min, max)| Some([min.trim().parse().ok()?, max.trim().parse().ok()?]));
+    let error = "two distances in pixels are expected, the lesser first and above 0, such as 3,20";
+    parsed.filter(|&[min, max]: &[f32; 2]| min > 0.0 && max >= min && max.is_finite()).ok_or_else(|| error.into())
+}
+
 /// The queries and the light of a span of pixels.
 struct Cast {
     batch: u64,
@@ -139,6 +158,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     } else {
         header.set_meaning("gathers", args.gathers);
     }
+    if let Some(accuracy) = args.irradiance_cache {
+        header.set_meaning("irradiance cache", accuracy);
+    }
     if args.samples > 1 {
         header.set_meaning("samples", args.samples);
     }
@@ -159,13 +181,22 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         caustics: !args.no_caustics,
         light_samples: args.light_samples,
         seed: args.seed,
-        direct: base.is_some(),
+        // Records carry the light that their rays meet, picture or not.
+        direct: base.is_some() || args.irradiance_cache.is_some(),
         strata: args.strata,
     };
     let rays = GatherRays::new(&scene, camera, options);
-    let mut film = Film::new(if base.is_some() { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
+    let wanted = base.is_some();
+    let mut film = Film::new(if wanted { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
     // The threads only need its unit.
     let unit = Film::new(0, light_scale(&scene));
+
+    let cache = args
+        .irradiance_cache
+        .map(|accuracy| CacheRecords::decide(&rays, CacheOptions { accuracy, spacing: args.spacing }));
+    if let Some(cache) = &cache {
+        write_cache(cache, &rays, size, args.common.threads(), &mut output)?;
+    }
 
     let progress = Progress::new(Some(pixels), "pixels", args.common.quiet);
     let mut counts = RayCounts::default();
@@ -179,14 +210,22 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             for x in span.columns.clone() {
                 let pixel = span.row * size[0] + x;
                 let light = |radiance: glam::Vec3| {
-                    if options.direct {
+                    if wanted {
                         match unit.quantise(radiance.as_dvec3().into()) {
                             Some(units) => cast.light.push((pixel, units)),
                             None => too_bright = Some(Overflow(pixel)),
                         }
                     }
                 };
-                rays.pixel(x, span.row, span.leaves, |query| cast.queries.push(query), light, &mut cast.counts);
+                rays.pixel(
+                    x,
+                    span.row,
+                    span.leaves,
+                    cache.as_ref(),
+                    |query| cast.queries.push(query),
+                    light,
+                    &mut cast.counts,
+                );
             }
             too_bright.map_or(Ok((cast, span)), Err)
         },
@@ -217,10 +256,57 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         .with("eye_rays", Number::Count(counts.eye))
         .with("gather_rays", Number::Count(counts.gather))
         .with("gather_rays_lost", Number::Count(counts.gather_lost));
+    if let Some(cache) = &cache {
+        report = report.with("irradiance_records", Number::Count(cache.len() as u64));
+    }
     if options.min_gather_dist > 0.0 {
         report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
     }
     output.finish(vec![report])?.commit()
+}
+
+/// Irradiance records to a block: their rays make them large.
+const RECORDS_A_BLOCK: usize = 32;
+
+/// Writes the records of cached irradiance and what each pixel takes of them, ahead of all queries.
+fn write_cache(
+    cache: &CacheRecords,
+    rays: &GatherRays<'_>,
+    [width, height]: [u32; 2],
+    threads: usize,
+    output: &mut RecordWriter<Query, Output>,
+) -> anyhow::Result<()> {
+    let mut firsts = (0..cache.len()).step_by(RECORDS_A_BLOCK);
+    in_order(
+        threads,
+        || anyhow::Ok(firsts.next()),
+        |first| {
+            let ids = first..(first + RECORDS_A_BLOCK).min(cache.len());
+            let records: Vec<_> = ids.map(|id| cache.record(rays, id as u32)).collect();
+            encode_irradiance(&records)
+        },
+        |encoded| {
+            let (block, tally) = encoded?;
+            Ok(output.write_beside(&block, tally)?)
+        },
+    )?;
+    let mut rows = 0..height;
+    in_order(
+        threads,
+        || anyhow::Ok(rows.next()),
+        |y| {
+            let mut weights = vec![];
+            (0..width).for_each(|x| cache.weights(rays, x, y, |weight| weights.push(weight)));
+            weights.chunks(BLOCK_RECORDS).map(encode_weights).collect::<Vec<_>>()
+        },
+        |encoded| {
+            for encoded in encoded {
+                let (block, tally) = encoded?;
+                output.write_beside(&block, tally)?;
+            }
+            Ok(())
+        },
+    )
 }
 
 /// Radiance that the lights' flux suggests for a scene of this size.

@@ -2,6 +2,7 @@
 
 use super::{Outcome, RadianceEstimate, Scratch};
 use crate::film::{Film, Overflow};
+use crate::irradiance::CachedIrradiance;
 use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
 use pm_formats::trace::{BlockEncoder, Coding, Region};
 use pm_formats::{Block, Header, Query, Tally, decode_checked};
@@ -19,6 +20,8 @@ pub struct Answerer<'a, M> {
     pub regions: Option<&'a [Region]>,
     /// Do second touches of a record count as reads?
     pub reread: bool,
+    /// The irradiance records that queries may belong to.
+    pub cache: &'a CachedIrradiance,
     /// How radiance is estimated, and a film that knows the picture's unit, if a picture is wanted.
     pub estimate: Option<(&'a RadianceEstimate<'a>, &'a Film)>,
 }
@@ -31,6 +34,8 @@ pub struct Answered {
     pub tally: Tally,
     /// What is to be added to which pixel.
     pub contributions: Vec<(u32, [i128; 3])>,
+    /// What is to be added to which sum of the cached irradiance.
+    pub cached: Vec<(u32, [i128; 3])>,
     /// What was done.
     pub counts: SearchCounts,
 }
@@ -83,6 +88,7 @@ impl<M: PhotonMap> Answerer<'_, M> {
         let mut scratch = Scratch::default();
         let mut encoder = self.regions.map(BlockEncoder::new);
         let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
+        let mut cached = vec![];
         let mut counts = SearchCounts::default();
         for query in &queries {
             visits.clear();
@@ -96,6 +102,12 @@ impl<M: PhotonMap> Answerer<'_, M> {
             }
             if let Some((estimate, film)) = self.estimate {
                 match estimate.contribution(query, &found, &mut scratch) {
+                    Outcome::Radiance(radiance) if query.is_for_record() => {
+                        let terms = self.cache.contributions(query.pixel, query.sample, radiance);
+                        for (sum, value) in terms.ok_or(Fault::Damaged("a query's irradiance record is not there"))? {
+                            cached.push((sum, film.quantise(value).ok_or(Fault::TooBright(Overflow(query.pixel)))?));
+                        }
+                    }
                     Outcome::Radiance(radiance) => {
                         let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
                         contributions.push((query.pixel, units));
@@ -105,6 +117,6 @@ impl<M: PhotonMap> Answerer<'_, M> {
             }
         }
         let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
-        Ok(Answered { trace, tally, contributions, counts })
+        Ok(Answered { trace, tally, contributions, cached, counts })
     }
 }

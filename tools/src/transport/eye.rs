@@ -17,6 +17,8 @@ pub(super) struct Leaf {
     pub(super) view: Vec3,
     pub(super) share: Vec3,
     pub(super) behind_specular: bool,
+    /// Length of the way from the eye, in scene units.
+    pub(super) distance: f32,
     /// Number within the pixel: those of one eye ray differ by multiples of the number of eye rays.
     pub(super) number: u32,
 }
@@ -75,17 +77,18 @@ impl Eye {
         let whole = u64::from(pixel) | u64::from(sample) << 32;
         let random = &mut Random::new(&[self.seed, Purpose::EyePath as u64, whole]);
         let (mut number, mut count) = (sample, 0);
-        // Rays yet to be followed: origin, direction, share, splits left, specular hits so far.
-        let mut rays = vec![(eye, direction, Vec3::ONE / self.samples as f32, SPLITS, 0u32)];
-        while let Some((origin, direction, share, splits, hits)) = rays.pop() {
+        // Rays yet to be followed: origin, direction, share, splits left, specular hits and length so far.
+        let mut rays = vec![(eye, direction, Vec3::ONE / self.samples as f32, SPLITS, 0u32, 0f32)];
+        while let Some((origin, direction, share, splits, hits, length)) = rays.pop() {
             count += 1;
             let Some(point) = stage.hit(origin, direction) else { continue };
+            let distance = length + origin.distance(point.position);
             let material = stage.material(&point);
             if material.emits() && point.facing == point.front {
                 light(share * Vec3::from(material.emission));
             }
             if spreads(material) {
-                leaves.push(Leaf { point, view: -direction, share, behind_specular: hits > 0, number });
+                leaves.push(Leaf { point, view: -direction, share, behind_specular: hits > 0, distance, number });
                 // However many there are, no other sample has them.
                 number += self.samples;
             }
@@ -93,7 +96,7 @@ impl Eye {
             let ways = specular(material, &point, direction);
             let mut follow = |direction: Vec3, share: Vec3, splits: u32| {
                 if share.max_element() > 0.0 {
-                    rays.push((point.start(direction), direction, share * patient, splits, hits + 1));
+                    rays.push((point.start(direction), direction, share * patient, splits, hits + 1, distance));
                 }
             };
             match ways {

@@ -3,11 +3,12 @@
 //! Steinhurst, Coombe, Lastra, *Reordering for Cache Conscious Photon Mapping*, GI 2005, Fig. 3 and Fig. 5.
 
 use super::Purpose;
+use super::cache_records::CacheRecords;
 use super::eye::{Eye, Leaf, choose};
 use super::lights::Lights;
 use super::photon_paths::patience;
 use super::reflection::{Reflection, Spread, spread_shares};
-use super::sampling::grid;
+use super::sampling::{cosine_direction, grid};
 use super::scatter::specular;
 use super::surface::{Stage, SurfacePoint};
 use crate::order::Leaves;
@@ -94,12 +95,12 @@ pub struct GatherRays<'a> {
 }
 
 /// Where a gather ray ends.
-struct End {
-    point: SurfacePoint,
+pub(super) struct End {
+    pub(super) point: SurfacePoint,
     /// Unit vector back along the ray.
-    view: Vec3,
+    pub(super) view: Vec3,
     /// What is left of the ray's weight.
-    weight: Vec3,
+    pub(super) weight: Vec3,
     /// Length of the ray, its reflections and refractions included.
     length: f32,
 }
@@ -117,11 +118,15 @@ impl<'a> GatherRays<'a> {
     /// and light that needs no query (what is emitted or, with final gather, comes straight from the lights) to `light`.
     ///
     /// A query's sample number is `(leaf * samples + sample) * gathers + stratum`.
+    ///
+    /// With cached irradiance the points that it serves are not gathered for; the records that were placed at this pixel
+    /// are.
     pub fn pixel(
         &self,
         x: u32,
         y: u32,
         leaves: Leaves,
+        cache: Option<&CacheRecords>,
         mut query: impl FnMut(Query),
         mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
@@ -139,21 +144,41 @@ impl<'a> GatherRays<'a> {
         if first_pass {
             counts.eye += eye_rays;
         }
+        let wanted = |behind_specular: bool| match leaves {
+            Leaves::All => true,
+            Leaves::Direct => !behind_specular,
+            Leaves::BehindSpecular => behind_specular,
+        };
         for leaf in &found {
-            let wanted = match leaves {
-                Leaves::All => true,
-                Leaves::Direct => !leaf.behind_specular,
-                Leaves::BehindSpecular => leaf.behind_specular,
-            };
-            if wanted {
+            if wanted(leaf.behind_specular) {
                 counts.seen += 1;
                 match self.options.method {
+                    Method::FinalGather if cache.is_some() && self.caches(leaf) => {
+                        self.direct_light(pixel, leaf, &mut light);
+                    }
                     Method::FinalGather => self.gather(pixel, leaf, &mut query, &mut light, counts),
                     Method::DirectVisualisation => {
                         query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
                     }
                 }
             }
+        }
+        if let Some(cache) = cache {
+            for (record, _) in cache.of_pixel(pixel).filter(|&(_, behind_specular)| wanted(behind_specular)) {
+                cache.gather(self, record, &mut query, counts);
+            }
+        }
+    }
+
+    /// Light that comes to a point seen straight from the lamps.
+    fn direct_light(&self, pixel: u32, leaf: &Leaf, light: &mut impl FnMut(Vec3)) {
+        let GatherOptions { light_samples, seed, direct, .. } = self.options;
+        if direct {
+            let reflection = Reflection::new(self.stage.material(&leaf.point), leaf.point.facing, leaf.view);
+            let key = [seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(leaf.number)];
+            let brdf = |towards: Vec3| reflection.brdf(towards);
+            let random = &mut Random::new(&key);
+            light(leaf.share * self.lights.reflected(&self.stage, &leaf.point, light_samples, random, brdf));
         }
     }
 
@@ -166,14 +191,10 @@ impl<'a> GatherRays<'a> {
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let GatherOptions { gathers, light_samples, seed, direct, spread, min_gather_dist, .. } = self.options;
+        let GatherOptions { gathers, seed, spread, .. } = self.options;
         let (point, number) = (&leaf.point, leaf.number);
         let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
-        if direct {
-            let random = &mut Random::new(&[seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(number)]);
-            let brdf = |towards: Vec3| reflection.brdf(towards);
-            light(leaf.share * self.lights.reflected(&self.stage, point, light_samples, random, brdf));
-        }
+        self.direct_light(pixel, leaf, light);
         let mut strata: Vec<u32> = (0..gathers).collect();
         if self.options.strata == Strata::Shuffled {
             let key = |stratum: &u32| {
@@ -192,19 +213,34 @@ impl<'a> GatherRays<'a> {
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
             let end = reflection.sample(spread, u.min(1.0), v, random).and_then(|(direction, weight)| {
                 let share = leaf.share * weight / gathers as f32;
-                let end = self.follow(point, direction, share, self.options.caustics, light, random)?;
-                if end.length >= min_gather_dist {
-                    return Some(end);
-                }
-                counts.gather_continued += 1;
                 let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
-                self.continued(&end, light, random, &mut Random::new(&key))
+                self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
             });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
                 None => counts.gather_lost += 1,
             }
         }
+    }
+
+    /// Casts one gather ray from a point, and one bounce further if it is too short.
+    #[expect(clippy::too_many_arguments, reason = "a ray, what it carries, two streams of random numbers, two outlets")]
+    fn cast(
+        &self,
+        point: &SurfacePoint,
+        direction: Vec3,
+        share: Vec3,
+        light: &mut impl FnMut(Vec3),
+        random: &mut Random,
+        for_light: &mut Random,
+        counts: &mut RayCounts,
+    ) -> Option<End> {
+        let end = self.follow(point, direction, share, self.options.caustics, light, random)?;
+        if end.length >= self.options.min_gather_dist {
+            return Some(end);
+        }
+        counts.gather_continued += 1;
+        self.continued(&end, light, random, for_light)
     }
 
     /// One bounce further: direct light at the end of a ray that was too short goes to `light`, and what comes there
@@ -271,8 +307,84 @@ impl<'a> GatherRays<'a> {
     }
 }
 
+/// What irradiance caching needs of the rays.
+impl GatherRays<'_> {
+    /// Width and height of the picture in pixels.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.eye.camera.size()
+    }
+
+    /// Angle between the middles of neighbouring pixels, in radians.
+    pub(super) fn pixel_angle(&self) -> f32 {
+        let camera = &self.eye.camera;
+        (2.0 * libm::tan(camera.vfov().to_radians() / 2.0) / f64::from(camera.size()[1])) as f32
+    }
+
+    /// Gather rays from each record.
+    pub(super) const fn gathers(&self) -> u32 {
+        self.options.gathers
+    }
+
+    /// Strata of elevation and of azimuth.
+    pub(super) const fn strata(&self) -> (u32, u32) {
+        self.strata
+    }
+
+    /// The points seen in a pixel.
+    pub(super) fn leaves(&self, x: u32, y: u32) -> Vec<Leaf> {
+        let mut leaves = vec![];
+        self.eye.see(&self.stage, x, y, &mut leaves, &mut |_| {});
+        leaves
+    }
+
+    /// Can a point's reflected light be told from its irradiance alone? Not where it has a glossy lobe.
+    pub(super) fn caches(&self, leaf: &Leaf) -> bool {
+        let (diffuse, lobe) = spread_shares(self.stage.material(&leaf.point));
+        diffuse.max_element() > 0.0 && lobe.max_element() <= 0.0
+    }
+
+    /// Diffuse reflectance of a point.
+    pub(super) fn reflectance(&self, leaf: &Leaf) -> Vec3 {
+        spread_shares(self.stage.material(&leaf.point)).0
+    }
+
+    /// Length of a record's ray to the first surface; infinite if it meets none.
+    pub(super) fn length(&self, point: &SurfacePoint, record: u32, sample: u32) -> f32 {
+        let (direction, _) = self.record_direction(point, record, sample);
+        let hit = self.stage.hit(point.start(direction), direction);
+        hit.map_or(f32::INFINITY, |hit| hit.position.distance(point.position))
+    }
+
+    /// Casts a record's ray; its weight is 1, changed only by what it meets on the way.
+    pub(super) fn record_ray(
+        &self,
+        point: &SurfacePoint,
+        record: u32,
+        sample: u32,
+        light: &mut impl FnMut(Vec3),
+        counts: &mut RayCounts,
+    ) -> Option<End> {
+        let (direction, mut random) = self.record_direction(point, record, sample);
+        let key = [self.options.seed, Purpose::LightAtShortEnd as u64, RECORDS | u64::from(record), sample.into()];
+        self.cast(point, direction, Vec3::ONE, light, &mut random, &mut Random::new(&key), counts)
+    }
+
+    /// The direction of a record's ray within its stratum, and the random numbers for what follows.
+    fn record_direction(&self, point: &SurfacePoint, record: u32, sample: u32) -> (Vec3, Random) {
+        let key = [self.options.seed, Purpose::RecordRay as u64, record.into(), sample.into()];
+        let mut random = Random::new(&key);
+        let (rows, columns) = self.strata;
+        let u = ((sample / columns) as f32 + random.unit()) / rows as f32;
+        let v = ((sample % columns) as f32 + random.unit()) / columns as f32;
+        (cosine_direction(point.facing, u.min(1.0), v), random)
+    }
+}
+
+/// Sets the keys of records apart from those of pixels.
+const RECORDS: u64 = 1 << 32;
+
 /// A query for the radiance that a point sends along `view`.
-fn query_at(point: &SurfacePoint, view: Vec3, pixel: u32, sample: u32, weight: Vec3) -> Query {
+pub(super) fn query_at(point: &SurfacePoint, view: Vec3, pixel: u32, sample: u32, weight: Vec3) -> Query {
     let (normal, view) = Query::pack_vectors(point.facing.into(), view.into());
     Query {
         position: point.position.into(),

@@ -1,5 +1,6 @@
 //! Directions and strata.
 
+use crate::hemisphere::frame;
 use glam::Vec3;
 
 /// A direction about `normal`, distributed as the cosine of the angle to it, from two numbers in [0, 1): the first is the
@@ -32,18 +33,6 @@ fn around(axis: Vec3, cos: f32, v: f32) -> Vec3 {
     let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);
     let (x, y) = frame(axis);
     (x * (sin * cos_phi) + y * (sin * sin_phi) + axis * cos).normalize()
-}
-
-/// Two unit vectors that complete `normal` to a right-handed frame.
-///
-/// Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: *Building an Orthonormal Basis, Revisited*, JCGT 6(1), 2017.
-pub(super) fn frame(normal: Vec3) -> (Vec3, Vec3) {
-    let sign = 1f32.copysign(normal.z);
-    let a = -1.0 / (sign + normal.z);
-    let b = normal.x * normal.y * a;
-    let x = Vec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
-    let y = Vec3::new(b, sign + normal.y * normal.y * a, -normal.y);
-    (x, y)
 }
 
 /// Rows and columns of the most nearly square grid of `n` cells, rows (elevations) at most as many as columns.
