@@ -167,8 +167,10 @@ mod tests {
             .map(|(id, &(distance, degrees))| {
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let towards = DVec3::new(cos, 0.0, sin);
+                // Not beyond the cuts before it.
+                let aside = DVec3::new(-sin, 1.0, cos);
                 let rank = (distance as f32, id);
-                Stranger { rank, offset: towards * distance + DVec3::Y * 0.2, normal: -towards }
+                Stranger { rank, offset: towards * distance + aside * 0.2, normal: -towards }
             })
             .collect();
         disc.cut(&strangers);

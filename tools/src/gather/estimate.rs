@@ -214,14 +214,20 @@ impl Surface<'_> {
     }
 }
 
-/// The glossy part of a BRDF: Phong's lobe about the mirrored direction of view, normalised as in Lafortune and Willems,
-/// *Using the Modified Phong Reflectance Model for Physically Based Rendering*, 1994, equation 10.
+/// The glossy part of a BRDF: Phong's lobe about the mirrored direction of view, over the larger of the two cosines so
+/// that little is lost at grazing angles: Neumann, Neumann, Szirmay-Kalos, *Compact Metallic Reflectance Models*,
+/// Eurographics 1999. It is the BRDF that photons and gather rays were scattered by.
 struct Lobe {
     /// Specular reflectance times (n + 2) / (2 pi), per steradian.
     peak: [f64; 3],
     exponent: f64,
     mirrored_view: DVec3,
+    normal: DVec3,
+    view_cosine: f64,
 }
+
+/// Directions are packed: one along the surface may seem to come from below.
+const LEAST_COSINE: f64 = 1e-4;
 
 impl Lobe {
     fn of(material: &Material, query: &Query) -> Option<Self> {
@@ -234,12 +240,15 @@ impl Lobe {
             peak: material.specular.map(|share| f64::from(share) * (exponent + 2.0) / (2.0 * PI)),
             exponent,
             mirrored_view: normal * (2.0 * normal.dot(view)) - view,
+            normal,
+            view_cosine: normal.dot(view),
         })
     }
 
     fn brdf(&self, towards_source: [f32; 3]) -> [f64; 3] {
-        let cosine = self.mirrored_view.dot(Vec3::from(towards_source).as_dvec3()).clamp(0.0, 1.0);
-        let lobe = libm::pow(cosine, self.exponent);
+        let source = Vec3::from(towards_source).as_dvec3();
+        let larger = self.view_cosine.max(self.normal.dot(source)).max(LEAST_COSINE);
+        let lobe = libm::pow(self.mirrored_view.dot(source).clamp(0.0, 1.0), self.exponent) / larger;
         self.peak.map(|peak| peak * lobe)
     }
 }
