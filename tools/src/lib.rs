@@ -7,6 +7,7 @@ pub mod cli;
 pub mod film;
 pub mod gather;
 pub mod image;
+pub mod make_scene;
 pub mod order;
 pub mod parallel;
 pub mod photon_map;
