@@ -56,17 +56,17 @@ illum 5
 
 newmtl sun
 Kd 0 0 0
-Ke 14 12 9
+Ke 5 4.2 3
 illum 1
 
 newmtl sky
 Kd 0 0 0
-Ke 3 4 5
+Ke .6 .8 1.1
 illum 1
 
 newmtl lamp
 Kd 0 0 0
-Ke 60 48 30
+Ke 20 16 10
 illum 1
 ";
 

@@ -13,7 +13,7 @@ use glam::{DVec3, Vec3};
 /// Seed of the heights.
 const SEED: u64 = 2005;
 /// Height of the coarsest octave at most, m.
-const AMPLITUDE: f64 = 0.022;
+const AMPLITUDE: f64 = 0.03;
 /// Amplitude of each octave over that of the one before: fractal dimension 2.2.
 const GAIN: f64 = 0.574;
 const OCTAVES: u32 = 10;
@@ -35,7 +35,7 @@ pub(super) fn build(fineness: u32) -> Model {
     );
     model.about = vec![
         "The Cornell box with a mirror and a glass sphere, its walls displaced inward by fractals of up to".into(),
-        "5 cm. Light, spheres, colours and camera are those of cornell. Metres, y up, open towards +z.".into(),
+        "7 cm. Light, spheres, colours and camera are those of cornell. Metres, y up, open towards +z.".into(),
     ];
     // Walls share the lines along their common edges, so that these have no cracks.
     let xs = lines_through(&[-0.5, -LIGHT[0], LIGHT[0], 0.5], cells);
