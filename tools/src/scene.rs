@@ -245,9 +245,10 @@ impl Builder {
             Some(id) => {
                 let mtl = &obj.materials[id];
                 let place = &obj.places[&mtl.name];
-                let texture = mtl.diffuse_texture.as_ref().map(|statement| {
-                    texture::mean_colour(&place.file, statement, read, &mut self.textures)
-                });
+                let texture = mtl
+                    .diffuse_texture
+                    .as_ref()
+                    .map(|statement| texture::mean_colour(&place.file, statement, read, &mut self.textures));
                 Material::decide(mtl, options, texture, place, warnings)
             }
             None => {

@@ -84,7 +84,8 @@ pub(super) fn build(fineness: u32) -> Model {
     let n = fineness.max(2) as usize;
     let mut model = Model::new(MATERIALS, CAMERA);
     model.about = vec![
-        "A hall of seven bays: columns, arches, a barrel vault, windows on both sides and in the far wall, three".into(),
+        "A hall of seven bays: columns, arches, a barrel vault, windows on both sides and in the far wall, three"
+            .into(),
         "lamps, and a floor of tiles that mirror a part of the light. Closed. Metres, y up, the nave along -z.".into(),
     ];
     floor(&mut model);
@@ -157,11 +158,7 @@ fn arcade(model: &mut Model, side: f64, n: usize) {
         cuboid(model, DVec3::new(middle, SPRING / 2.0, z), DVec3::new(HALF, SPRING / 2.0, HALF / 2.0));
     }
     model.group("cornice", "column");
-    cuboid(
-        model,
-        DVec3::new(side * (INNER - 0.075), TOP - 0.1, -LENGTH / 2.0),
-        DVec3::new(0.075, 0.1, LENGTH / 2.0),
-    );
+    cuboid(model, DVec3::new(side * (INNER - 0.075), TOP - 0.1, -LENGTH / 2.0), DVec3::new(0.075, 0.1, LENGTH / 2.0));
 }
 
 /// Point `i` of `n` on half a circle over the origin, from +z by the top to -z, as (z, y).
@@ -288,9 +285,7 @@ fn end_wall(model: &mut Model, z: f64, lunette: bool, n: usize) {
     let (corner, across) = if lunette { (-SIDE, DVec3::X) } else { (SIDE, DVec3::NEG_X) };
     plane(model, DVec3::new(corner, 0.0, z), across * (2.0 * SIDE), DVec3::Y * TOP, 20, 10);
     let arc = 4 * n;
-    for (material, inner, outer) in
-        [(if lunette { "sky" } else { "wall" }, 0.0, LUNETTE), ("wall", LUNETTE, INNER)]
-    {
+    for (material, inner, outer) in [(if lunette { "sky" } else { "wall" }, 0.0, LUNETTE), ("wall", LUNETTE, INNER)] {
         model.group("lunette", material);
         let at = |i: usize, j: usize| {
             let (x, y) = arch_point(i, arc, if j == 0 { inner } else { outer });

@@ -109,7 +109,8 @@ fn copy(model: &mut Model, material: &'static str) {
     let cornell = Scene::embedded();
     model.group(material, material);
     for i in (0..cornell.triangle_count()).filter(|&i| cornell.material_of(i).name == material) {
-        let mut numbers = |points: [Vec3; 3], add: fn(&mut Model, DVec3) -> u32| points.map(|p| add(model, p.as_dvec3()));
+        let mut numbers =
+            |points: [Vec3; 3], add: fn(&mut Model, DVec3) -> u32| points.map(|p| add(model, p.as_dvec3()));
         let corners = numbers(cornell.triangle(i), Model::point);
         match cornell.corner_normals(i).map(|normals| numbers(normals, Model::normal)) {
             Some(normals) => model.smooth_triangle(corners, normals),
@@ -129,7 +130,10 @@ mod tests {
             let mut highest = 0f64;
             for i in 0..=300 {
                 let t = f64::from(i) / 300.0;
-                assert_eq!([height(wall, 0.0, t), height(wall, t, 0.0), height(wall, 1.0, t), height(wall, t, 1.0)], [0.0; 4]);
+                assert_eq!(
+                    [height(wall, 0.0, t), height(wall, t, 0.0), height(wall, 1.0, t), height(wall, t, 1.0)],
+                    [0.0; 4]
+                );
                 let inside = height(wall, t, 1.0 - t);
                 assert!((0.0..AMPLITUDE / (1.0 - GAIN)).contains(&inside));
                 highest = highest.max(inside);

@@ -143,7 +143,9 @@ mod tests {
     /// Is what is no image refused in one line, however it begins?
     #[test]
     fn damaged_images_are_refused() {
-        for bytes in [&b""[..], b"BM", b"\x89PNG\r\n\x1a\n", b"\x89PNG", &[0xff, 0xd8], &[0xff, 0xd8, 0xff, 0xc0, 0, 9, 9]] {
+        for bytes in
+            [&b""[..], b"BM", b"\x89PNG\r\n\x1a\n", b"\x89PNG", &[0xff, 0xd8], &[0xff, 0xd8, 0xff, 0xc0, 0, 9, 9]]
+        {
             assert!(mean(bytes).is_err_and(|why| !why.contains('\n')), "{bytes:?}");
         }
     }
