@@ -119,8 +119,8 @@ fn what_is_no_whole_stream_is_refused_by_every_reader() {
         let mut readers = vec![consumer(kind), "pm-view", "pm-view --check"];
         match kind {
             Kind::Photons => readers.push("pm-gather - q.pmq --no-trace --image out.exr"),
-            Kind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch -t 4"]),
-            Kind::Trace => readers.extend(["pm-cachesim --format json", "pm-cachesim -t 4"]),
+            Kind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch"]),
+            Kind::Trace => readers.extend(["pm-cachesim --format json"]),
         }
         for reader in readers {
             let refuses = |what: &str, bytes: &[u8]| {

@@ -25,7 +25,7 @@ pub(crate) const PROGRAMS: [(&str, &str); 7] = [
 pub(crate) const SMALL: &str = "--size 16x12 --gathers 4";
 
 /// No program takes so long here, however busy the machine; one that does waits for something that never comes.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 fn binary(program: &str) -> &'static str {
     PROGRAMS.iter().find(|(name, _)| *name == program).unwrap_or_else(|| panic!("no program {program}")).1

@@ -4,13 +4,13 @@ mod block;
 mod end;
 mod header;
 
-pub use block::{Block, BlockMeta, MAX_BLOCK};
+pub use block::{Block, BlockMeta, MAX_BLOCK, Section};
 pub use end::{End, Number, StageReport};
 pub use header::{Bounds, Header, Kind, Material};
 
 use crate::digest::Tally;
 use crate::error::{Error, Result};
-use block::{BlockHeader, HEADER_BYTES, Section};
+use block::{BlockHeader, HEADER_BYTES};
 use std::io::{ErrorKind, Read, Write};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -97,7 +97,7 @@ impl<R: Read> BlockReader<R> {
         self.blocks
     }
 
-    /// The next block of records, or `None` at the end block.
+    /// The next block, of records or of what stands beside them, or `None` at the end block.
     ///
     /// # Errors
     /// [`Error::Incomplete`] if the stream stops, [`Error::Damaged`] if it contradicts itself, [`Error::Io`].
@@ -117,9 +117,12 @@ impl<R: Read> BlockReader<R> {
         }
         let block = header.with_bytes(payload).map_err(|what| self.damaged(what))?;
         match block.section {
-            Section::Records => {
+            Section::Records | Section::IrradianceRecords | Section::PixelWeights => {
                 self.blocks += 1;
-                self.records += u64::from(block.meta.records);
+                // Only the stream's own records are counted; what stands beside them is in the digest.
+                if block.section == Section::Records {
+                    self.records += u64::from(block.meta.records);
+                }
                 Ok(Some(block))
             }
             Section::End => {

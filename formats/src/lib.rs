@@ -24,6 +24,7 @@
 //! # Ok::<(), pm_formats::Error>(())
 //! ```
 
+mod beside;
 mod container;
 mod digest;
 mod error;
@@ -32,9 +33,13 @@ mod record;
 mod stream;
 pub mod trace;
 
+pub use beside::{
+    IrradianceRay, IrradianceRecord, PixelWeight, decode_irradiance, decode_weights, encode_irradiance, encode_weights,
+    tally_beside,
+};
 pub use container::{
     Block, BlockMeta, BlockReader, BlockWriter, Bounds, End, FORMAT_VERSION, Header, Kind, MAGIC, MAX_BLOCK, Material,
-    Number, StageReport,
+    Number, Section, StageReport,
 };
 pub use digest::{Digest, Tally};
 pub use error::{Error, Result};

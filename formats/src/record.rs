@@ -8,7 +8,7 @@ pub use pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
 pub use photon::Photon;
 pub use query::Query;
 
-use crate::container::{Block, BlockMeta, Header, Kind};
+use crate::container::{Block, BlockMeta, Header, Kind, Section};
 use crate::digest::Tally;
 use crate::error::Result;
 use bytemuck::Pod;
@@ -52,7 +52,7 @@ pub fn encode_records<T: Record>(meta: BlockMeta, records: &[T]) -> Result<(Bloc
 pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
     let words_each = size_of::<T>() / 4;
     let count = block.meta.records as usize;
-    if block.raw_len() != count * size_of::<T>() {
+    if block.section != Section::Records || block.raw_len() != count * size_of::<T>() {
         return None;
     }
     let mut columns = vec![0u32; count * words_each];

@@ -1,6 +1,7 @@
 //! Typed streams of records: what most programs read and write.
 
-use crate::container::{BlockMeta, BlockReader, BlockWriter, End, Header, StageReport};
+use crate::beside::tally_beside;
+use crate::container::{Block, BlockMeta, BlockReader, BlockWriter, End, Header, Section, StageReport};
 use crate::digest::Tally;
 use crate::error::Result;
 use crate::record::{BLOCK_RECORDS, Record, decode_checked, encode_records};
@@ -11,6 +12,7 @@ use std::marker::PhantomData;
 pub struct RecordReader<T, R> {
     blocks: BlockReader<R>,
     tally: Tally,
+    beside: Vec<Block>,
     records: PhantomData<T>,
 }
 
@@ -29,7 +31,7 @@ impl<T: Record, R: Read> RecordReader<T, R> {
     /// [`Error::Kind`](crate::Error::Kind) if it holds other records.
     pub fn from_blocks(blocks: BlockReader<R>) -> Result<Self> {
         let blocks = blocks.expect_kind(T::KIND)?;
-        Ok(Self { blocks, tally: Tally::default(), records: PhantomData })
+        Ok(Self { blocks, tally: Tally::default(), beside: vec![], records: PhantomData })
     }
 
     /// What the stream is about.
@@ -49,14 +51,30 @@ impl<T: Record, R: Read> RecordReader<T, R> {
     /// # Errors
     /// As [`BlockReader::next_block`] and [`BlockReader::end`].
     pub fn next_block(&mut self) -> Result<Option<(BlockMeta, Vec<T>)>> {
-        let Some(block) = self.blocks.next_block()? else {
-            self.blocks.end(self.tally)?;
-            return Ok(None);
+        let block = loop {
+            match self.blocks.next_block()? {
+                Some(block) if block.section == Section::Records => break block,
+                Some(block) => {
+                    let damaged = || self.blocks.damaged("a block beside the records does not hold what it says");
+                    self.tally += tally_beside(&block).ok_or_else(damaged)?;
+                    self.beside.push(block);
+                }
+                None => {
+                    self.blocks.end(self.tally)?;
+                    return Ok(None);
+                }
+            }
         };
         let decoded = decode_checked::<T>(&block, self.blocks.header());
         let (records, tally) = decoded.map_err(|what| self.blocks.damaged(what))?;
         self.tally += tally;
         Ok(Some((block.meta, records)))
+    }
+
+    /// The blocks that stood beside the records read since this was asked last. Whoever passes the records on passes
+    /// them on as well.
+    pub fn take_beside(&mut self) -> Vec<Block> {
+        std::mem::take(&mut self.beside)
     }
 
     /// The end block, after [`next_block`](Self::next_block) has returned `None`.
@@ -110,6 +128,17 @@ impl<T: Record, W: Write> RecordWriter<T, W> {
                 self.cut()?;
             }
         }
+        Ok(())
+    }
+
+    /// Writes a block that stands beside the records, with what it adds to the digest.
+    ///
+    /// # Errors
+    /// [`Error::Io`](crate::Error::Io).
+    pub fn write_beside(&mut self, block: &Block, tally: Tally) -> Result<()> {
+        self.cut()?;
+        self.blocks.write(block)?;
+        self.tally += tally;
         Ok(())
     }
 

@@ -5,11 +5,12 @@ mod input;
 mod output;
 mod progress;
 mod typed;
+mod usage;
 
-pub use error::{UsageError, usage};
 pub use input::{Input, named, open_input};
 pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
+pub use usage::{UsageError, usage};
 
 use clap::{CommandFactory, FromArgMatches};
 use pm_formats::Step;
@@ -35,7 +36,24 @@ Exit codes:
 
 static PROGRAM: OnceLock<String> = OnceLock::new();
 
-/// Threads and quiet: what every program takes.
+/// Quiet: what every program takes.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct Voice {
+    /// No progress and no remarks on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Voice {
+    /// Says something on standard error, unless quiet.
+    pub fn remark(&self, text: impl std::fmt::Display) {
+        if !self.quiet {
+            say(text);
+        }
+    }
+}
+
+/// Threads and quiet: what the programs take whose work can be shared out.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct Common {
     /// Threads to work with; the output does not depend on it
@@ -55,9 +73,7 @@ impl Common {
 
     /// Says something on standard error, unless quiet.
     pub fn remark(&self, text: impl std::fmt::Display) {
-        if !self.quiet {
-            say(text);
-        }
+        Voice { quiet: self.quiet }.remark(text);
     }
 }
 

@@ -11,13 +11,29 @@ pub(super) const TAG: [u8; 4] = *b"PMBL";
 pub const MAX_BLOCK: usize = 1 << 26;
 
 /// What a block's payload is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
-pub(super) enum Section {
+pub enum Section {
     /// Records of the stream's kind.
     Records = 0,
+    /// Beside the queries: where irradiance is cached.
+    IrradianceRecords = 1,
+    /// Beside the queries: which cached irradiance each pixel takes.
+    PixelWeights = 2,
     /// The end of the stream.
     End = 255,
+}
+
+impl Section {
+    const fn from_number(number: u8) -> Option<Self> {
+        match number {
+            0 => Some(Self::Records),
+            1 => Some(Self::IrradianceRecords),
+            2 => Some(Self::PixelWeights),
+            255 => Some(Self::End),
+            _ => None,
+        }
+    }
 }
 
 /// Flag bit: the records are simulated but not counted.
@@ -37,7 +53,8 @@ pub struct BlockMeta {
 /// A block as it stands in a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
-    pub(super) section: Section,
+    /// What its payload is.
+    pub section: Section,
     /// What it says of its records.
     pub meta: BlockMeta,
     compressed: bool,
@@ -54,7 +71,7 @@ impl Block {
         Self::encode_section(Section::Records, meta, payload, level)
     }
 
-    pub(super) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
+    pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
         if payload.len() > MAX_BLOCK {
             return Err(Error::Invalid(format!("a block of {} bytes; the most is {MAX_BLOCK}", payload.len())));
         }
@@ -139,11 +156,7 @@ impl BlockHeader {
         if h[28..32] != short_sum(&h[..28]) {
             return Err("a block's header does not fit its checksum");
         }
-        let section = match h[4] {
-            0 => Section::Records,
-            255 => Section::End,
-            _ => return Err("a block of a sort this program does not know"),
-        };
+        let section = Section::from_number(h[4]).ok_or("a block of a sort this program does not know")?;
         let (raw_len, stored_len) = (word(20), word(24) as usize);
         let known = h[5] & !FLAG_WARM_UP == 0 && h[6] <= 1 && h[7] == 0;
         if !known || raw_len as usize > MAX_BLOCK || stored_len > MAX_BLOCK {

@@ -19,9 +19,9 @@ pub struct Query {
     pub view: u32,
     /// Material, an index into the header's table.
     pub material: u16,
-    /// Reserved, 0.
+    /// Bit 0: `pixel` is the id of an irradiance record; the other bits are reserved, 0.
     pub flags: u16,
-    /// Destination pixel, counted row by row from the upper left corner.
+    /// Destination pixel, counted row by row from the upper left corner; or irradiance record.
     pub pixel: u32,
     /// Sample number within the pixel.
     pub sample: u32,
@@ -30,6 +30,16 @@ pub struct Query {
 }
 
 impl Query {
+    /// Flag of a query that belongs to an irradiance record.
+    pub const FOR_RECORD: u16 = 1;
+
+    /// Does the query belong to an irradiance record, and not to a pixel by itself?
+    #[inline]
+    #[must_use]
+    pub const fn is_for_record(&self) -> bool {
+        self.flags & Self::FOR_RECORD != 0
+    }
+
     /// Packs the two unit vectors of a query.
     #[must_use]
     pub fn pack_vectors(normal: [f32; 3], view: [f32; 3]) -> (u32, u32) {
@@ -57,7 +67,7 @@ impl Record for Query {
             Some("a query's position or weight is not finite")
         } else if usize::from(self.material) >= header.materials.len() {
             Some("a query's material is not in the table")
-        } else if u64::from(self.pixel) >= header.pixels() {
+        } else if !self.is_for_record() && u64::from(self.pixel) >= header.pixels() {
             Some("a query's pixel lies outside the image")
         } else {
             None

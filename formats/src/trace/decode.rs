@@ -3,12 +3,15 @@
 use super::access::{Access, AccessKind, Coding, Region, TraceSink};
 use super::heap_walk::{self, BitReader};
 use super::varint::{take, unzigzag};
-use crate::container::Block;
+use crate::container::{Block, Section};
 use crate::digest::Tally;
 
 /// Replays the searches of a block; `None` if it does not hold what it says. What was replayed before the fault was
 /// found is then worthless.
 pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceSink) -> Option<Tally> {
+    if block.section != Section::Records {
+        return None;
+    }
     let payload = block.decode()?;
     let mut planes = Planes::split(&payload)?;
     let mut tally = Tally::default();

@@ -4,7 +4,7 @@ use anyhow::Context as _;
 use clap::Parser;
 use pm_formats::trace::TraceReader;
 use pm_tools::cache::{CacheConfig, Row, Simulation};
-use pm_tools::cli::{self, Common, Progress, Typed, create_output, named, open_input, usage};
+use pm_tools::cli::{self, Progress, Typed, Voice, create_output, named, open_input, usage};
 use pm_tools::report::{Column, Format, Table, Value};
 use pm_tools::size::Bytes;
 use std::io::Write as _;
@@ -39,7 +39,7 @@ struct Args {
     #[arg(long, default_value = "table")]
     format: Format,
     #[command(flatten)]
-    common: Common,
+    voice: Voice,
 }
 
 const EXAMPLES: &str = "\
@@ -89,7 +89,7 @@ fn simulate(args: &Args, path: &Path, configs: &[CacheConfig], table: &mut Table
     let name = named(path);
     let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
     let mut simulation = Simulation::new(&trace.header().regions, configs).context(name.clone())?;
-    let progress = Progress::new(trace.header().expected_records, "searches", args.common.quiet);
+    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
     while let Some(block) = trace.replay_block(&mut simulation).with_context(|| name.clone())? {
         progress.add(u64::from(block.records));
     }

@@ -3,8 +3,8 @@
 use anyhow::Context as _;
 use clap::Parser;
 use indicatif::BinaryBytes;
-use pm_formats::{BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport};
-use pm_tools::cli::{self, Common, OutputArgs, Progress, Typed, named, open_input};
+use pm_formats::{Block, BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport, tally_beside};
+use pm_tools::cli::{self, Output, OutputArgs, Progress, Typed, Voice, named, open_input};
 use pm_tools::order::{Per, Reorder, Sorted, hilbert_keys};
 use pm_tools::random::Random;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ struct Args {
     #[command(flatten)]
     output: OutputArgs,
     #[command(flatten)]
-    common: Common,
+    voice: Voice,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -72,22 +72,34 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         let bytes = records * (size_of::<Query>() + size_of::<u64>()) as u64;
         if bytes > WORTH_SAYING {
             let size = BinaryBytes(bytes);
-            args.common
+            args.voice
                 .remark(format!("up to {records} queries will be held in {size} of memory to order the whole image"));
         }
     }
 
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
-    let progress = Progress::new(header.expected_records, "queries", args.common.quiet);
+    let progress = Progress::new(header.expected_records, "queries", args.voice.quiet);
     let mut order = build(args.order, args.per, header.bounds, args.seed);
     while let Some((meta, records)) = queries.next_block().with_context(|| name.clone())? {
+        pass_on(queries.take_beside(), &mut output)?;
         order.push(meta, &records, &mut |meta: BlockMeta, queries: &[Query]| output.write(meta, queries))?;
         progress.add(records.len() as u64);
     }
+    pass_on(queries.take_beside(), &mut output)?;
     order.drain(&mut |meta: BlockMeta, queries: &[Query]| output.write(meta, queries))?;
     let mut report = StageReport::new(typed.program());
     report.measures = order.measures();
     output.finish_with_same_records(queries.end()?, report)?.commit()
+}
+
+/// Writes blocks that stand beside the queries as they are.
+fn pass_on(blocks: Vec<Block>, output: &mut RecordWriter<Query, Output>) -> anyhow::Result<()> {
+    for block in blocks {
+        // What it adds to the digest was checked when it was read.
+        let tally = tally_beside(&block).context("a block that was checked")?;
+        output.write_beside(&block, tally)?;
+    }
+    Ok(())
 }
 
 fn build(order: Order, per: Per, bounds: Bounds, seed: u64) -> Box<dyn Reorder> {

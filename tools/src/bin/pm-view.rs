@@ -3,7 +3,7 @@
 use anyhow::Context as _;
 use clap::Parser;
 use pm_formats::BlockReader;
-use pm_tools::cli::{self, Common, Input, Typed, create_output, named, open_input};
+use pm_tools::cli::{self, Input, Typed, Voice, create_output, named, open_input};
 use pm_tools::view;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ struct Args {
     #[arg(long, value_name = "N", group = "what", num_args = 0..=1, require_equals = true, default_missing_value = "18446744073709551615")]
     records: Option<u64>,
     #[command(flatten)]
-    common: Common,
+    voice: Voice,
 }
 
 const EXAMPLES: &str = "\
@@ -57,7 +57,7 @@ fn look(args: &Args, name: &str, stream: BlockReader<Input>, output: &mut impl W
         write!(output, "{}", pm_formats::as_commands(&stream.header().history))?;
     } else if args.check {
         let kind = stream.kind();
-        let whole = view::read_to_end(stream, &args.common)?;
+        let whole = view::read_to_end(stream, args.voice.quiet)?;
         let tally = whole.end.tally;
         writeln!(output, "{name}: whole, {} {}, digest {}", tally.records, kind.plural(), tally.digest)?;
     } else if let Some(limit) = args.records {
@@ -67,7 +67,7 @@ fn look(args: &Args, name: &str, stream: BlockReader<Input>, output: &mut impl W
             writeln!(output, "== {name}")?;
         }
         view::header(stream.kind(), stream.header(), output)?;
-        view::end(&view::read_to_end(stream, &args.common)?, output)?;
+        view::end(&view::read_to_end(stream, args.voice.quiet)?, output)?;
     }
     Ok(())
 }

@@ -2,26 +2,9 @@
 
 use super::output::{ReaderGone, unfinished_files};
 use super::say;
-use std::fmt;
+use super::usage::UsageError;
 use std::io;
 use std::process::ExitCode;
-
-/// The program was asked wrongly (exit code 2).
-#[derive(Debug)]
-pub struct UsageError(String);
-
-impl fmt::Display for UsageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for UsageError {}
-
-/// An error that says the program was asked wrongly.
-pub fn usage(text: impl Into<String>) -> anyhow::Error {
-    UsageError(text.into()).into()
-}
 
 /// Prints what went wrong, if anything, and chooses the exit code.
 pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {

@@ -1,6 +1,6 @@
 //! Input streams: a file, or standard input by `-`.
 
-use super::error::usage;
+use super::usage::usage;
 use anyhow::Context as _;
 use pm_formats::BlockReader;
 use std::fs::File;

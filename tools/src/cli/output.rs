@@ -1,6 +1,6 @@
 //! Outputs: standard output, or a file that appears whole or not at all.
 
-use super::error::usage;
+use super::usage::usage;
 use anyhow::Context as _;
 use std::fmt;
 use std::fs::{self, File, Permissions};

@@ -1,6 +1,6 @@
 //! Progress on standard error, for a person who watches.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fs::File;
 use std::io::{self, IsTerminal as _};
 use std::os::fd::AsFd as _;
@@ -18,10 +18,13 @@ impl Progress {
         let target = if seen { ProgressDrawTarget::stderr_with_hz(10) } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(total, target);
         let template = match total {
-            Some(_) => format!("{{wide_bar}} {{human_pos}}/{{human_len}} {unit}, {{per_sec}}, {{eta}} left"),
-            None => format!("{{spinner}} {{human_pos}} {unit}, {{per_sec}}"),
+            Some(_) => format!("{{wide_bar}} {{human_pos}}/{{human_len}} {unit}, {{rate}}/s, {{eta}} left"),
+            None => format!("{{spinner}} {{human_pos}} {unit}, {{rate}}/s"),
         };
-        bar.set_style(ProgressStyle::with_template(&template).expect("a valid template"));
+        let rate = |state: &ProgressState, text: &mut dyn std::fmt::Write| {
+            let _ = write!(text, "{}", HumanCount(state.per_sec() as u64));
+        };
+        bar.set_style(ProgressStyle::with_template(&template).expect("a valid template").with_key("rate", rate));
         Self(bar)
     }
 

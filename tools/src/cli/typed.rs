@@ -4,7 +4,7 @@ use clap::Command;
 use std::ffi::OsString;
 
 /// Options that leave no trace in a stream: how the work is done, not what it is.
-const PASSING: [&str; 5] = ["threads", "quiet", "output", "memory", "temporary"];
+const PASSING: [&str; 6] = ["threads", "quiet", "verbose", "output", "memory", "temporary"];
 
 /// What was typed, minus the passing options and their values.
 pub(super) fn lasting_arguments(command: &Command, raw: &[OsString]) -> Vec<String> {

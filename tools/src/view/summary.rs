@@ -1,6 +1,6 @@
 //! Header and end block as text.
 
-use crate::cli::{Common, Progress};
+use crate::cli::Progress;
 use indicatif::{BinaryBytes, HumanCount};
 use pm_formats::trace::{Access, Coding, TraceReader, TraceSink};
 use pm_formats::{BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, as_commands};
@@ -69,8 +69,8 @@ pub struct Whole {
 ///
 /// # Errors
 /// Whatever is wrong with it.
-pub fn read_to_end<R: Read>(stream: BlockReader<R>, common: &Common) -> pm_formats::Result<Whole> {
-    let progress = Progress::new(stream.header().expected_records, "records", common.quiet);
+pub fn read_to_end<R: Read>(stream: BlockReader<R>, quiet: bool) -> pm_formats::Result<Whole> {
+    let progress = Progress::new(stream.header().expected_records, "records", quiet);
     let (mut batches, mut blocks, mut last_batch) = (0, 0, None);
     let mut block = |batch: u64, records: u64| {
         batches += u64::from(last_batch != Some(batch));
