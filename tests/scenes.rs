@@ -99,11 +99,14 @@ fn arriving(scene: &Scene) -> [(f64, f64); 3] {
 }
 
 #[track_caller]
-fn arrives(what: &str, scene: &Scene, expected: [f64; 3]) {
+fn arrives(what: &str, scene: &Scene, expected: [f64; 3], lost: f64) {
     for (channel, ((mean, error), expected)) in arriving(scene).into_iter().zip(expected).enumerate() {
         // Four standard errors, and what single precision takes from each of many hits.
         let off = (mean - expected).abs();
-        assert!(off < 4.0 * error + 1e-4 * expected, "{what}, channel {channel}: {mean} +- {error}, not {expected}");
+        assert!(
+            off < 4.0 * error + (1e-4 + lost) * expected,
+            "{what}, channel {channel}: {mean} +- {error}, not {expected}"
+        );
     }
 }
 
@@ -130,15 +133,20 @@ fn crate_scenes(name: &str) -> PathBuf {
 fn light_does_not_depend_on_unit_or_place() {
     // All that is emitted and all that it becomes arrives: pi A / (1 - rho), A = 6 scale^2. Catches offsets of rays that do
     // not grow with coordinates: photons then leave through the walls, or hit the one they start from.
-    for (what, scale, offset) in
-        [("metres", 1.0, 0.0), ("millimetres", 1000.0, 0.0), ("at 1e5", 1.0, 1e5), ("a hundredth at 1e3", 0.01, 10.0)]
-    {
+    // At 1e5 a box of 1 m has coordinates in steps of 8 mm: some light is lost at its edges, and this is said.
+    for (what, scale, offset, lost) in [
+        ("metres", 1.0, 0.0, 0.0),
+        ("millimetres", 1000.0, 0.0, 0.0),
+        ("centimetres, aside", 0.01, 10.0, 0.01),
+        ("at 1e5", 1.0, 1e5, 0.05),
+    ] {
         let scene = load(&furnace(&Folder::new(), scale, offset));
         assert_eq!(scene.triangle_count(), 12, "{what}");
+        assert_eq!(scene.warnings.iter().any(|w| w.contains("from the origin")), offset == 1e5, "{:?}", scene.warnings);
         let area: f64 = (0..12).map(|i| scene.area(i)).sum();
         assert!((area / (6.0 * scale * scale) - 1.0).abs() < 0.02, "{what}: area {area}");
         let flux = std::f64::consts::PI * area;
-        arrives(what, &scene, [0.2, 0.5, 0.8].map(|rho| flux / (1.0 - rho)));
+        arrives(what, &scene, [0.2, 0.5, 0.8].map(|rho| flux / (1.0 - rho)), lost);
     }
 }
 
@@ -152,7 +160,7 @@ fn integrating_sphere_has_the_irradiance_it_says() {
     let said: Vec<f64> = said.unwrap().split_whitespace().filter_map(|x| x.parse().ok()).collect();
     let scene = load(&folder.path("s.obj"));
     let area: f64 = (0..scene.triangle_count()).map(|i| scene.area(i)).sum();
-    arrives("sphere", &scene, [said[0] * area, said[1] * area, said[2] * area]);
+    arrives("sphere", &scene, [said[0] * area, said[1] * area, said[2] * area], 0.0);
     // 10 pi times the share of the cap: (1 - cos 30 deg) / 2 of a true sphere.
     assert!((said[0] - 10.0 * std::f64::consts::PI * 0.066_987_3 / 0.8).abs() < 0.01, "{said:?}");
 }
@@ -209,7 +217,7 @@ fn fractal_walls_have_no_cracks() {
 }
 
 const SQUARE: &str = "mtllib s.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nusemtl paint\nf 1 2 3 4\n";
-const VIEW: &str = "--eye 0,2,3 --look-at 0,0,0 --size 8x8 --gathers 1";
+const VIEW: &str = "-q --eye 0,2,3 --look-at 0,0,0 --size 8x8 --gathers 1";
 
 #[test]
 fn a_light_can_be_added_where_there_is_none() {

@@ -73,13 +73,14 @@ impl Recipe {
 mod tests {
     use super::*;
 
-    /// Is there neither less than asked for, nor much more? (Catches a guess that starts above what is needed.)
+    /// Is there neither less than asked for, nor much more? (Catches a guess that starts above what is needed; some parts
+    /// of the hall grow in steps.)
     #[test]
     fn number_of_triangles_is_nearly_what_was_asked() {
         for recipe in Recipe::ALL {
             for asked in [20_000, 50_000] {
                 let made = recipe.make(asked).triangle_count();
-                assert!(made >= asked && made < asked + asked / 5, "{}: {made} for {asked}", recipe.name());
+                assert!(made >= asked && made < asked + asked / 3, "{}: {made} for {asked}", recipe.name());
             }
         }
     }

@@ -35,6 +35,9 @@ pub use quad_light::QuadLight;
 use texture::Texture;
 use warnings::Warnings;
 
+/// Distance from the origin in sizes of the scene from which single precision is too coarse for it to be tight.
+const FAR: f32 = 1e4;
+
 /// How OBJ and MTL files are understood.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct LoadOptions {
@@ -340,6 +343,12 @@ impl Builder {
         let mut bounds = Bounds::EMPTY;
         for p in self.indices.iter().flatten().map(|&v| self.positions[v as usize]) {
             bounds = Bounds { min: bounds.min.min(p), max: bounds.max.max(p) };
+        }
+        let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        if farthest > FAR * bounds.size().max_element() {
+            warnings.say(format!(
+                "{files}: {farthest} from the origin, {FAR} times its size: light gets lost; move it to the origin"
+            ));
         }
         let scene = Scene {
             positions: self.positions,
