@@ -347,7 +347,7 @@ impl Builder {
         let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
         if farthest > FAR * bounds.size().max_element() {
             warnings.say(format!(
-                "{files}: {farthest} from the origin, {FAR} times its size: light gets lost; move it to the origin"
+                "{files}: {farthest} from the origin, more than {FAR} times its size: light gets lost; move it to the origin"
             ));
         }
         let scene = Scene {
