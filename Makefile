@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run test check full-size causes bench man clean
+.PHONY: help programs run scenes test check full-size causes bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -107,6 +107,11 @@ out/causes/%.csv: out/full/map.pmp
 	@mkdir -p out/causes
 	$(LAUNCH) sh -c '$(or $(CAUSE_$*),$(SMALL_QUERIES) | $(BIN)/pm-gather $< $(OPTIONS_$*)) -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
 
+# ---- make scenes ----------------------------------------------------------------------------------------------------
+
+scenes: | programs ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere
+	for name in fractal columns sphere; do $(LAUNCH) $(BIN)/pm-scene $$name -o out/scenes || exit 1; done
+
 # ---- checks ---------------------------------------------------------------------------------------------------------
 
 test: ## All tests, optimised
@@ -121,7 +126,7 @@ bench: ## Speed, as ratios measured side by side
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder gather cachesim view; do \
+	for program in photons queries reorder gather cachesim view scene; do \
 	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
 	done
 

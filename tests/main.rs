@@ -10,6 +10,7 @@ mod light;
 mod oracles;
 mod pipes;
 mod readme;
+mod scenes;
 mod streams;
 mod support;
 mod tidy;

@@ -12,6 +12,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("film", &[]),
     ("gather", &["photon_map", "film", "formats"]),
     ("image", &["cli"]),
+    ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
     ("order", &["random", "formats"]),
     ("parallel", &[]),
     ("photon_map", &["random", "formats"]), // never scene or transport: it is built from photons in a stream

@@ -9,6 +9,7 @@ pub mod gather;
 pub mod hemisphere;
 pub mod image;
 pub mod irradiance;
+pub mod make_scene;
 pub mod order;
 pub mod parallel;
 pub mod photon_map;

@@ -11,10 +11,12 @@ mod material;
 mod mesh;
 mod mtl;
 mod obj;
+mod quad_light;
 mod statements;
 mod table;
 #[cfg(test)]
 mod tests;
+mod texture;
 mod warnings;
 
 use std::collections::HashMap;
@@ -29,7 +31,12 @@ pub use material::{Material, MaterialKind};
 pub use mesh::Dropped;
 use mesh::Shape;
 use obj::{ParsedObj, ReadFile};
+pub use quad_light::QuadLight;
+use texture::Texture;
 use warnings::Warnings;
+
+/// Distance from the origin in sizes of the scene from which single precision is too coarse for it to be tight.
+const FAR: f32 = 1e4;
 
 /// How OBJ and MTL files are understood.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -117,9 +124,15 @@ impl Scene {
         let mut builder = Builder { files: names(paths), ..Builder::default() };
         for path in paths {
             let parsed = obj::parse(path, read, &mut warnings)?;
-            builder.add(path, &parsed, options, &mut warnings)?;
+            builder.add(path, &parsed, options, read, &mut warnings)?;
         }
-        builder.finish(options, warnings)
+        let lights = embree_lights(paths, read, &mut warnings)?;
+        let allow_dark = options.allow_dark || !lights.is_empty();
+        let mut scene = builder.finish(&LoadOptions { allow_dark, ..*options }, warnings)?;
+        for (place, light) in &lights {
+            scene.add_quad_light(&place.to_string(), light)?;
+        }
+        Ok(scene)
     }
 
     /// How many triangles there are.
@@ -158,6 +171,22 @@ impl Scene {
     }
 }
 
+/// The area lights of Embree's `NAME.ecs` beside each OBJ that has one.
+fn embree_lights(
+    paths: &[PathBuf],
+    read: ReadFile<'_>,
+    warnings: &mut Warnings,
+) -> Result<Vec<(Place, QuadLight)>, SceneError> {
+    let mut all = vec![];
+    for path in paths.iter().map(|path| path.with_extension("ecs")) {
+        let Ok(bytes) = read(&path) else { continue };
+        let (lights, warning) = camera::ecs::lights(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
+        all.extend(lights);
+        warning.into_iter().for_each(|warning| warnings.say(warning));
+    }
+    Ok(all)
+}
+
 fn names(paths: &[PathBuf]) -> String {
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
     if names.is_empty() { "no OBJ file given".into() } else { names.join(", ") }
@@ -175,6 +204,8 @@ struct Builder {
     dropped: Dropped,
     turned: usize,
     read: usize,
+    /// Mean colours of the textures met, or why there is none.
+    textures: HashMap<PathBuf, Texture>,
 }
 
 impl Builder {
@@ -183,6 +214,7 @@ impl Builder {
         path: &Path,
         obj: &ParsedObj,
         options: &LoadOptions,
+        read: ReadFile<'_>,
         warnings: &mut Warnings,
     ) -> Result<(), SceneError> {
         let mut numbers: HashMap<Option<usize>, u16> = HashMap::new();
@@ -192,7 +224,7 @@ impl Builder {
             let number = match numbers.get(&id) {
                 Some(&number) => number,
                 None => {
-                    let number = self.material(path, obj, id, options, warnings)?;
+                    let number = self.material(path, obj, id, options, read, warnings)?;
                     numbers.insert(id, number);
                     number
                 }
@@ -208,13 +240,19 @@ impl Builder {
         obj: &ParsedObj,
         id: Option<usize>,
         options: &LoadOptions,
+        read: ReadFile<'_>,
         warnings: &mut Warnings,
     ) -> Result<u16, SceneError> {
         let number = u16::try_from(self.materials.len()).map_err(|_| self.too_many("more than 65536 materials"))?;
         self.materials.push(match id {
             Some(id) => {
                 let mtl = &obj.materials[id];
-                Material::decide(mtl, options, &obj.places[&mtl.name], warnings)
+                let place = &obj.places[&mtl.name];
+                let texture = mtl
+                    .diffuse_texture
+                    .as_ref()
+                    .map(|statement| texture::mean_colour(&place.file, statement, read, &mut self.textures));
+                Material::decide(mtl, options, texture, place, warnings)
             }
             None => {
                 warnings.say(format!("{}: faces without a known material are grey 0.5", path.display()));
@@ -301,10 +339,16 @@ impl Builder {
         if turned > 0 {
             warnings.say(format!("{files}: {turned} triangles are wound against their vn; vn tells their front"));
         }
-        self.keep_used_materials();
+        let lost = self.keep_used_materials();
         let mut bounds = Bounds::EMPTY;
         for p in self.indices.iter().flatten().map(|&v| self.positions[v as usize]) {
             bounds = Bounds { min: bounds.min.min(p), max: bounds.max.max(p) };
+        }
+        let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        if farthest > FAR * bounds.size().max_element() {
+            warnings.say(format!(
+                "{files}: {farthest} from the origin, more than {FAR} times its size: light gets lost; move it to the origin"
+            ));
         }
         let scene = Scene {
             positions: self.positions,
@@ -317,13 +361,13 @@ impl Builder {
             normals: self.normals,
         };
         if !options.allow_dark && !scene.materials.iter().any(Material::emits) {
-            return Err(SceneError::NoLight { files });
+            return Err(SceneError::NoLight { files, lost });
         }
         Ok(scene)
     }
 
-    /// Forgets materials all of whose triangles were dropped: a light without area is no light.
-    fn keep_used_materials(&mut self) {
+    /// Forgets materials all of whose triangles were dropped: a light without area is no light. Says so of lights.
+    fn keep_used_materials(&mut self) -> String {
         let mut used = vec![false; self.materials.len()];
         self.material_ids.iter().for_each(|&id| used[usize::from(id)] = true);
         let mut next = 0u16;
@@ -336,8 +380,13 @@ impl Builder {
             })
             .collect();
         self.material_ids.iter_mut().for_each(|id| *id = renumbered[usize::from(*id)]);
+        let lost = (self.materials.iter().zip(&used)).find(|(material, used)| material.emits() && !**used);
+        let lost = lost.map_or(String::new(), |(light, _)| {
+            format!(" (all triangles of material {:?}, which would, have no area)", light.name)
+        });
         let mut keep = used.iter();
         self.materials.retain(|_| keep.next() == Some(&true));
+        lost
     }
 
     fn too_many(&self, what: &str) -> SceneError {

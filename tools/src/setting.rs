@@ -1,7 +1,7 @@
 //! What `pm-photons` and `pm-queries` share: which scene, and how a stream's header speaks of it.
 
 use crate::cli::{Common, usage};
-use crate::scene::{Camera, CameraOverrides, LoadOptions, Scene};
+use crate::scene::{Camera, CameraOverrides, LoadOptions, QuadLight, Scene};
 use pm_formats::{Bounds, Header, Material};
 use std::path::PathBuf;
 
@@ -16,6 +16,9 @@ pub struct SceneArgs {
     /// Take Ks and Ns for a glossy lobe; exporters write them on plain paint too
     #[arg(long)]
     pub glossy: bool,
+    /// Add a parallelogram of light: corner, two edges from it, radiance; it shines towards u x v; may be repeated
+    #[arg(long, value_name = "X,Y,Z,UX,UY,UZ,VX,VY,VZ,R,G,B", allow_hyphen_values = true)]
+    pub quad_light: Vec<QuadLight>,
     /// Print the scene's materials on standard error
     #[arg(short, long)]
     pub verbose: bool,
@@ -62,12 +65,16 @@ impl SceneArgs {
     /// # Errors
     /// If it cannot be loaded.
     pub fn load(&self, common: &Common) -> anyhow::Result<Scene> {
-        let scene = if self.scene.is_empty() {
+        let mut scene = if self.scene.is_empty() {
             Scene::embedded()
         } else {
-            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, ..LoadOptions::default() };
+            let allow_dark = !self.quad_light.is_empty();
+            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark };
             Scene::load(&self.scene, &options)?
         };
+        for light in &self.quad_light {
+            scene.add_quad_light("--quad-light", light)?;
+        }
         scene.warnings.iter().for_each(|warning| common.remark(warning));
         if self.verbose {
             scene.material_table().lines().for_each(|line| common.remark(line));
@@ -88,6 +95,9 @@ impl SceneArgs {
             Camera::find(&self.scene, &scene.bounds, &overrides)?
         };
         choice.warnings.iter().for_each(|warning| common.remark(warning));
+        if choice.camera.sees_only_backs(scene) {
+            common.remark("the camera sees only the backs of surfaces: a black picture means that it is inside a wall");
+        }
         if choice.fitted || self.verbose {
             common.remark(&choice.note);
         }

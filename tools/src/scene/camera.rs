@@ -1,8 +1,9 @@
 //! From where a scene is seen: a pinhole camera, and where its description comes from.
 
-mod ecs;
+pub(super) mod ecs;
 mod file;
 mod fit;
+mod inside;
 
 use std::path::PathBuf;
 

@@ -71,10 +71,20 @@ pub enum SceneError {
         files: String,
     },
     /// Nothing emits light.
-    #[error("{files}: nothing emits light; give a material `Ke`, or add an OBJ with a light")]
+    #[error("{files}: nothing emits light{lost}; give a material `Ke`, or add a light by --quad-light")]
     NoLight {
         /// The files of the scene.
         files: String,
+        /// What became of materials that would emit, or nothing.
+        lost: String,
+    },
+    /// A light that cannot shine.
+    #[error("light ({whence}): {what}")]
+    Light {
+        /// Where it was described: a file, or the command line.
+        whence: String,
+        /// What is wrong with it.
+        what: String,
     },
     /// More of something than a scene can number.
     #[error("{files}: {what}")]

@@ -5,6 +5,7 @@
 
 use super::LoadOptions;
 use super::error::Place;
+use super::texture::Texture;
 use super::warnings::Warnings;
 
 /// Radiance above which a light is thought to be a slip.
@@ -86,9 +87,26 @@ impl Material {
     }
 
     /// Decides what an MTL material is; the first fitting case counts.
-    pub(crate) fn decide(mtl: &tobj::Material, options: &LoadOptions, place: &Place, warnings: &mut Warnings) -> Self {
-        let said = Said::new(mtl);
+    /// `texture` is the mean colour of its `map_Kd`, or why there is none.
+    pub(crate) fn decide(
+        mtl: &tobj::Material,
+        options: &LoadOptions,
+        texture: Option<Texture>,
+        place: &Place,
+        warnings: &mut Warnings,
+    ) -> Self {
+        let mut said = Said::new(mtl);
         let mut remark = Remark { place, name: &mtl.name, warnings };
+        match texture {
+            Some(Ok(mean)) => {
+                // The MTL text multiplies the texture by Kd; Maya writes Kd 0 beside one.
+                let factor = said.diffuse.filter(|&kd| max(kd) > 0.0).unwrap_or([1.0; 3]);
+                said.diffuse = Some(std::array::from_fn(|c| factor[c] * mean[c]));
+                remark.once("map_Kd mean", "has a texture, of which only the mean colour is taken");
+            }
+            Some(Err(why)) => said.unreadable = Some(why),
+            None => {}
+        }
         let mut out = said.kind(mtl, options, &mut remark);
         if remark.limit(&mut out.diffuse, &mut out.specular) {
             remark.say("reflects more light than it gets: Kd and Ks are scaled to 1");
@@ -109,7 +127,8 @@ struct Said {
     illum: Option<u8>,
     metallic: Option<f32>,
     roughness: f32,
-    textured: bool,
+    /// Why the texture it has cannot be averaged.
+    unreadable: Option<String>,
 }
 
 impl Said {
@@ -131,7 +150,7 @@ impl Said {
             illum: mtl.illumination_model,
             metallic: scalar("Pm"),
             roughness: scalar("Pr").unwrap_or(0.0),
-            textured: mtl.diffuse_texture.is_some(),
+            unreadable: None,
         }
     }
 
@@ -211,19 +230,19 @@ impl Said {
 
     /// The diffuse colour, where textures and missing statements make it a guess.
     fn diffuse(&self, remark: &mut Remark<'_>) -> [f32; 3] {
-        match self.diffuse {
+        match (self.diffuse, &self.unreadable) {
             // Maya writes Kd 0 beside a texture.
-            Some([0.0, 0.0, 0.0]) | None if self.textured => {
-                remark.once("map_Kd black", "has a texture, which is ignored, and no Kd: grey 0.5 takes its place");
+            (Some([0.0, 0.0, 0.0]) | None, Some(why)) => {
+                let what = format!("has a texture that is ignored ({why}), and no Kd: grey 0.5 takes its place");
+                remark.once("map_Kd black", &what);
                 GREY
             }
-            Some(diffuse) => {
-                if self.textured {
-                    remark.once("map_Kd", "has a texture, which is ignored: Kd alone counts");
-                }
+            (Some(diffuse), Some(why)) => {
+                remark.once("map_Kd", &format!("has a texture that is ignored ({why}): Kd alone counts"));
                 diffuse
             }
-            None => {
+            (Some(diffuse), None) => diffuse,
+            (None, None) => {
                 remark.once("no Kd", "has no Kd: grey 0.5 takes its place");
                 GREY
             }
@@ -277,7 +296,8 @@ mod tests {
         let mut warnings = Warnings::default();
         let clean = mtl::clean(Path::new("m.mtl"), format!("newmtl m\n{text}").as_bytes(), &mut warnings).unwrap();
         let (materials, _) = tobj::load_mtl_buf(&mut clean.text.as_bytes()).unwrap();
-        let material = Material::decide(&materials[0], options, &clean.places["m"], &mut warnings);
+        let texture = materials[0].diffuse_texture.as_ref().map(|_| Err("no file".to_owned()));
+        let material = Material::decide(&materials[0], options, texture, &clean.places["m"], &mut warnings);
         (material, warnings.into_lines())
     }
 

@@ -250,7 +250,7 @@ fn hopeless_scenes_say_why() {
     assert!(said(&[]).starts_with("no OBJ file given: no faces"));
     assert!(error("").starts_with("t.obj: no faces"));
     let dark = load_files(&[("t.obj", format!("{SQUARE}f 1 2 3").as_bytes())], &LoadOptions::default()).unwrap_err();
-    assert_eq!(dark.to_string(), "t.obj: nothing emits light; give a material `Ke`, or add an OBJ with a light");
+    assert_eq!(dark.to_string(), "t.obj: nothing emits light; give a material `Ke`, or add a light by --quad-light");
 }
 
 /// Is a lamp without an area no lamp?
@@ -258,7 +258,10 @@ fn hopeless_scenes_say_why() {
 fn lamp_without_area_is_no_light() {
     let obj = format!("mtllib m.mtl\n{SQUARE}usemtl lamp\nf 1 1 2\nusemtl paint\nf 1 2 3\n");
     let dark = load_files(&[("t.obj", obj.as_bytes()), ("m.mtl", LAMP.as_bytes())], &LoadOptions::default());
-    assert!(matches!(dark, Err(SceneError::NoLight { .. })));
+    assert!(
+        matches!(&dark, Err(SceneError::NoLight { lost, .. }) if lost.contains("\"lamp\", which would, have no area")),
+        "{dark:?}"
+    );
     let scene = load(obj).unwrap();
     assert_eq!((scene.materials.len(), scene.lights().len(), scene.material_of(0).name.as_str()), (1, 0, "paint"));
 }

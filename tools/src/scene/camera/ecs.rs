@@ -1,14 +1,26 @@
-//! Embree's scene description `NAME.ecs`: command-line options in a file, of which the camera's are read.
+//! Embree's scene description `NAME.ecs`: command-line options in a file, of which camera and area lights are read.
 
 use super::{CameraChoice, CameraOverrides, SIZE, SceneError, UP, VFOV, View, choose};
+use crate::scene::{Place, QuadLight};
+use std::path::Path;
 
-/// Reads the camera of an `.ecs` file that came from `whence`; its lights and all else are named in a warning.
-pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Result<CameraChoice, SceneError> {
-    let mut eye = None;
-    let mut look_at = None;
-    let mut view = View { eye: [0.0; 3], look_at: [0.0; 3], up: UP, vfov: VFOV, size: SIZE };
-    let mut lights: Vec<&str> = Vec::new();
-    let mut others: Vec<&str> = Vec::new();
+/// What an `.ecs` file says.
+#[derive(Debug, Default)]
+struct Ecs<'a> {
+    eye: Option<[f64; 3]>,
+    look_at: Option<[f64; 3]>,
+    up: Option<[f64; 3]>,
+    vfov: Option<f64>,
+    size: Option<[u32; 2]>,
+    /// Area lights, and where they are described.
+    lights: Vec<(Place, QuadLight)>,
+    /// Lights without an area, by their options.
+    other_lights: Vec<&'a str>,
+    others: Vec<&'a str>,
+}
+
+fn read<'a>(text: &'a str, whence: &str) -> Result<Ecs<'a>, SceneError> {
+    let mut ecs = Ecs::default();
     for (number, line) in (1..).zip(text.lines()) {
         let mut words = line.split_whitespace().take_while(|word| !word.starts_with('#')).peekable();
         while let Some(option) = words.next() {
@@ -19,15 +31,20 @@ pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Re
                     what: format!("{option} wants a number, not {word:?}"),
                 })
             };
-            match option {
-                "-vp" => eye = Some([value()?, value()?, value()?]),
-                "-vi" => look_at = Some([value()?, value()?, value()?]),
-                "-vu" => view.up = [value()?, value()?, value()?],
-                "-fov" => view.vfov = value()?,
-                "-size" => view.size = [value()? as u32, value()? as u32],
-                "-i" => while words.next_if(|word| !is_option(word)).is_some() {}, // the OBJ we are beside
+            let mut three = || -> Result<[f64; 3], SceneError> { Ok([value()?, value()?, value()?]) };
+            match option.strip_prefix('-').map(|rest| rest.strip_prefix('-').unwrap_or(rest)) {
+                Some("vp") => ecs.eye = Some(three()?),
+                Some("vi") => ecs.look_at = Some(three()?),
+                Some("vu") => ecs.up = Some(three()?),
+                Some("fov") => ecs.vfov = Some(value()?),
+                Some("size") => ecs.size = Some([value()? as u32, value()? as u32]),
+                Some("quadlight") => {
+                    let light = QuadLight { corner: three()?, u: three()?, v: three()?, radiance: three()? };
+                    ecs.lights.push((Place::new(Path::new(whence), number), light));
+                }
+                Some("i") => while words.next_if(|word| !is_option(word)).is_some() {}, // the OBJ we are beside
                 _ => {
-                    let kind = if option.contains("light") { &mut lights } else { &mut others };
+                    let kind = if option.contains("light") { &mut ecs.other_lights } else { &mut ecs.others };
                     if is_option(option) && !kind.contains(&option) {
                         kind.push(option);
                     }
@@ -35,29 +52,48 @@ pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Re
             }
         }
     }
+    Ok(ecs)
+}
+
+/// Reads the camera of an `.ecs` file that came from `whence`; what is neither camera nor light is named in a warning.
+pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Result<CameraChoice, SceneError> {
+    let ecs = read(text, whence)?;
     let place = |point: Option<[f64; 3]>, given: Option<[f64; 3]>, option: &str, what: &str| {
         point.or(given).ok_or_else(|| SceneError::Camera {
             whence: whence.to_owned(),
             what: format!("no {option} in the file; give {what}"),
         })
     };
-    view.eye = place(eye, overrides.eye, "-vp", "the eye")?;
-    view.look_at = place(look_at, overrides.look_at, "-vi", "the point to look at")?;
+    let view = View {
+        eye: place(ecs.eye, overrides.eye, "-vp", "the eye")?,
+        look_at: place(ecs.look_at, overrides.look_at, "-vi", "the point to look at")?,
+        up: ecs.up.unwrap_or(UP),
+        vfov: ecs.vfov.unwrap_or(VFOV),
+        size: ecs.size.unwrap_or(SIZE),
+    };
     let mut choice = choose(view, whence, overrides)?;
-    if !lights.is_empty() {
-        let warning =
-            format!("{whence}: {} not read; add an OBJ with a light of that place and size", lights.join(" "));
-        choice.warnings.push(warning);
-    }
-    if !others.is_empty() {
-        choice.warnings.push(format!("{whence}: {} ignored", others.join(" ")));
+    if !ecs.others.is_empty() {
+        choice.warnings.push(format!("{whence}: {} ignored", ecs.others.join(" ")));
     }
     Ok(choice)
 }
 
+/// Reads the area lights of an `.ecs` file that came from `whence`, and a warning if it has lights of other kinds.
+///
+/// # Errors
+/// [`SceneError::Camera`] for what should be a number and is none.
+pub(crate) fn lights(text: &str, whence: &str) -> Result<(Vec<(Place, QuadLight)>, Option<String>), SceneError> {
+    let ecs = read(text, whence)?;
+    let warning = (!ecs.other_lights.is_empty()).then(|| {
+        let names = ecs.other_lights.join(" ");
+        format!("{whence}: {names} not read: lights have an area here; --quad-light adds one of that place and size")
+    });
+    Ok((ecs.lights, warning))
+}
+
 /// Options begin with a minus and a letter, numbers do not.
 fn is_option(word: &str) -> bool {
-    word.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_alphabetic()))
+    word.trim_start_matches('-').starts_with(|c: char| c.is_ascii_alphabetic()) && word.starts_with('-')
 }
 
 #[cfg(test)]
@@ -66,17 +102,20 @@ mod tests {
 
     use super::*;
 
-    /// Is Embree's camera read, and are its lights named rather than lost?
+    /// Are Embree's camera and area lights read, and lights of other kinds named rather than lost?
     #[test]
-    fn camera_is_read_and_lights_are_named() {
+    fn camera_and_area_lights_are_read() {
         let text = "-i crown.obj  # the model\n-vp 1 2 3 -vi -4 5 6\n-vu 0 0 1 -fov 37\n-size 640 480\n\
                     -quadlight 0 9 0 1 0 0 0 0 1 5 5 5\n-pointlight 1 1 1 2 2 2 --threads 4\n";
         let choice = parse(text, "crown.ecs", &CameraOverrides::default()).unwrap();
         let camera = choice.camera;
         assert_eq!((camera.eye(), camera.look_at()), (Vec3::new(1.0, 2.0, 3.0), Vec3::new(-4.0, 5.0, 6.0)));
         assert_eq!((camera.up(), camera.vfov(), camera.size()), (Vec3::Z, 37.0, [640, 480]));
-        assert_eq!(choice.warnings.len(), 1, "{:?}", choice.warnings);
-        assert!(choice.warnings[0].starts_with("crown.ecs: -quadlight -pointlight not read"));
+        assert_eq!(choice.warnings, ["crown.ecs: --threads ignored"]);
+        let (lights, warning) = lights(text, "crown.ecs").unwrap();
+        let light = QuadLight { corner: [0., 9., 0.], u: [1., 0., 0.], v: [0., 0., 1.], radiance: [5.; 3] };
+        assert_eq!(lights, [(Place::new(Path::new("crown.ecs"), 5), light)]);
+        assert!(warning.unwrap().starts_with("crown.ecs: -pointlight not read"));
     }
 
     /// Does a bad or missing number name its line and option?
