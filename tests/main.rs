@@ -13,3 +13,4 @@ mod readme;
 mod streams;
 mod support;
 mod tidy;
+mod view;

@@ -21,7 +21,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("setting", &["cli", "scene", "formats"]),
     ("size", &[]),
     ("transport", &["scene", "order", "random", "formats"]),
-    ("view", &["cli", "formats"]),
+    ("view", &["cli", "image", "random", "report", "formats"]),
 ];
 
 /// What tests may know beyond what their module may: where random numbers come from.
