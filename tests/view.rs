@@ -1,9 +1,23 @@
 //! Do other renderers' points come in, go out again, and through every program; and are pictures compared rightly?
 
 use crate::streams::check;
-use crate::support::{Folder, same_bytes, same_text};
+use crate::support::{Folder, same_text};
 use pm_tools::image::Picture;
 use std::path::Path;
+
+/// The same text but for the last digit of directions: those on an edge of the octahedron have two codes each.
+fn same_numbers(what: &str, expected: &[u8], got: &[u8]) {
+    let words = |text: &[u8]| -> Vec<String> {
+        String::from_utf8(text.to_vec()).unwrap().split_whitespace().map(str::to_owned).collect()
+    };
+    let (expected, got) = (words(expected), words(got));
+    assert_eq!(expected.len(), got.len(), "{what}");
+    for (x, y) in expected.iter().zip(&got) {
+        let near =
+            |x: &str, y: &str| matches!((x.parse::<f64>(), y.parse::<f64>()), (Ok(x), Ok(y)) if (x - y).abs() < 3e-7);
+        assert!(x == y || near(x, y), "{what}: {x} became {y}");
+    }
+}
 
 #[test]
 fn what_is_exported_can_be_imported() {
@@ -12,9 +26,9 @@ fn what_is_exported_can_be_imported() {
         let text = folder.run(&format!("pm-view --records {file} -o out.tsv")).ok();
         assert!(text.stdout.is_empty());
         let stream = folder.run(&format!("pm-view --import {kind} out.tsv {options}")).ok().stdout;
-        assert!(check(&stream).unwrap().records > 500);
+        assert!(check(&stream).unwrap().records > 100);
         let again = folder.feed("pm-view --records", &stream).ok().stdout;
-        same_bytes(kind, &folder.read("out.tsv"), &again);
+        same_numbers(kind, &folder.read("out.tsv"), &again);
         // From a pipe all is the same but the name of the input.
         let piped = folder.feed(&format!("pm-view --import {kind} {options}"), &folder.read("out.tsv")).ok().stdout;
         assert_eq!(check(&piped).unwrap(), check(&stream).unwrap());
@@ -31,13 +45,13 @@ fn imported_points_go_through_every_program() {
     folder.run("pm-view --records q.pmq -o q.tsv").ok();
     folder.run(&format!("pm-view --import photons map.tsv --emitted {digits} -o theirs.pmp")).ok();
     folder.run("pm-view --import queries q.tsv --size 16x12 -o theirs.pmq").ok();
-    let table =
-        folder.sh("pm-reorder hilbert theirs.pmq | pm-gather theirs.pmp --image theirs.exr | pm-cachesim --format csv");
+    let table = folder
+        .sh("pm-reorder hilbert theirs.pmq | pm-gather -q theirs.pmp --image theirs.exr | pm-cachesim --format csv");
     assert!(table.ok().text().lines().nth(1).is_some_and(|row| row.contains("imported, hilbert")));
 
     // The searches are those of the streams themselves.
     let tally = |line: &str| check(&folder.run(line).ok().stdout).unwrap();
-    assert_eq!(tally("pm-gather map.pmp q.pmq"), tally("pm-gather theirs.pmp theirs.pmq"));
+    assert_eq!(tally("pm-gather map.pmp q.pmq"), tally("pm-gather -q theirs.pmp theirs.pmq"));
     assert!(Picture::read_exr(&folder.path("theirs.exr")).unwrap().pixels.iter().flatten().sum::<f32>() > 0.0);
 }
 

@@ -123,7 +123,8 @@ fn bounds_and_materials_are_those_of_the_rows() {
 }
 
 proptest! {
-    /// A photon as it is shown comes back, number by number and bit by bit.
+    /// A photon as it is shown comes back: position and power bit by bit, directions but for the last digit, since those
+    /// on an edge of the octahedron have two codes each.
     #[test]
     fn photons_come_back(position in proptest::array::uniform3(-1e6f32..1e6), power in proptest::array::uniform3(0f32..1e4),
                          seen in proptest::array::uniform3(-1f32..1.0), t in 0f32..1.0) {
@@ -138,7 +139,8 @@ proptest! {
         let back = import_photons(&text, &plain()).unwrap()[0];
         prop_assert_eq!(back.position.map(f32::to_bits), photon.position.map(f32::to_bits));
         prop_assert_eq!(back.power(), photon.power());
-        prop_assert_eq!(back.normal(), photon.normal());
-        prop_assert_eq!(back.towards_source(), photon.towards_source());
+        let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 3e-7);
+        prop_assert!(near(back.normal(), photon.normal()));
+        prop_assert!(near(back.towards_source(), photon.towards_source()));
     }
 }
