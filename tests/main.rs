@@ -14,3 +14,4 @@ mod scenes;
 mod streams;
 mod support;
 mod tidy;
+mod view;

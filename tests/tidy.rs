@@ -10,8 +10,10 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("cache", &["size", "formats"]), // never photon_map: it sees accesses only
     ("cli", &["formats"]),
     ("film", &[]),
-    ("gather", &["photon_map", "film", "formats"]),
+    ("gather", &["photon_map", "irradiance", "film", "formats"]),
+    ("hemisphere", &[]),
     ("image", &["cli"]),
+    ("irradiance", &["hemisphere", "film", "formats"]),
     ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
     ("order", &["random", "formats"]),
     ("parallel", &[]),
@@ -21,8 +23,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("setting", &["cli", "scene", "formats"]),
     ("size", &[]),
-    ("transport", &["scene", "order", "random", "formats"]),
-    ("view", &["cli", "formats"]),
+    ("transport", &["scene", "irradiance", "hemisphere", "order", "random", "formats"]),
+    ("view", &["cli", "image", "random", "report", "formats"]),
 ];
 
 /// What tests may know beyond what their module may: where random numbers come from.

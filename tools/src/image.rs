@@ -1,5 +1,11 @@
 //! Pictures: linear OpenEXR for measuring, PNG for looking.
 
+mod compare;
+mod describe;
+
+pub use compare::{Comparison, REL_MSE_EPSILON};
+pub use describe::{Channel, Description};
+
 use anyhow::{Context as _, ensure};
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
@@ -105,6 +111,13 @@ impl Picture {
         Ok(())
     }
 
+    /// The picture as a camera sees it that takes 2^`stops` of the light.
+    #[must_use]
+    pub fn exposed(&self, stops: f32) -> Self {
+        let scale = libm::exp2f(stops);
+        Self { size: self.size, pixels: self.pixels.iter().map(|pixel| pixel.map(|x| x * scale)).collect() }
+    }
+
     /// Share of pixels that a PNG shows too dark because a channel exceeds 1.
     #[must_use]
     pub fn clipped(&self) -> f64 {
@@ -172,6 +185,33 @@ mod tests {
     fn the_curve_is_srgb() {
         // From the standard: 0 and 1 stay, linear 0.2159 is 128, the toe is 12.92 x.
         assert_eq!([0.0, 1.0, 0.215_861, 0.002, 5.0, -1.0, f32::NAN].map(srgb), [0, 255, 128, 7, 255, 0, 0]);
+    }
+
+    #[test]
+    fn a_stop_is_a_factor_of_two() {
+        let exposed = picture().exposed(-1.0);
+        assert_eq!(exposed.pixels[3], picture().pixels[3].map(|x| x / 2.0));
+        assert_eq!(picture().exposed(0.0), picture());
+        // 0.5 is clipped nowhere, and everywhere one and a half stops up.
+        let grey = Picture { size: [2, 1], pixels: vec![[0.5; 3]; 2] };
+        assert_eq!([0.0, 1.0, 1.5].map(|stops| grey.exposed(stops).clipped()), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_picture_is_described() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.exr");
+        let mut bytes = vec![];
+        picture().write(&path, &mut bytes, &[("photonmap.k", "100".into())]).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        let description = Description::read(&path).unwrap();
+        assert_eq!(description.size, [4, 3]);
+        // Channels stand in alphabetical order: B, G, R.
+        let names: Vec<_> = description.channels.iter().map(|channel| &*channel.name).collect();
+        assert_eq!(names, ["B", "G", "R"]);
+        let blue = &description.channels[0];
+        assert_eq!((blue.min, blue.mean, blue.max, blue.not_finite), (0.0, 385_000.0, 770_000.0, 0));
+        assert!(description.attributes.contains(&("comments".into(), "photonmap.k = 100".into())));
     }
 
     #[test]

@@ -44,7 +44,11 @@ pub struct CameraArgs {
     pub vfov: Option<f64>,
 }
 
-fn size(text: &str) -> Result<[u32; 2], String> {
+/// Reads a size such as `512x512`.
+///
+/// # Errors
+/// If it is none.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parsed
         .filter(|&[w, h]: &[u32; 2]| w > 0 && h > 0 && u64::from(w) * u64::from(h) <= 1 << 32)

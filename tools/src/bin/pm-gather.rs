@@ -66,6 +66,9 @@ struct Args {
     /// Take cached irradiance as it is at its record, without the gradients
     #[arg(long)]
     no_gradients: bool,
+    /// Stops by which PNG previews are brightened; EXR pictures keep their radiance
+    #[arg(long, value_name = "STOPS", default_value = "0", allow_hyphen_values = true)]
+    exposure: f32,
     /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
     #[arg(long, value_name = "FILE")]
     base: Option<PathBuf>,
@@ -132,6 +135,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             "photons and queries cannot both come from standard input; name a file for one of them",
         ));
     }
+    if !args.exposure.is_finite() {
+        return Err(cli::usage("--exposure: a finite number of stops is expected"));
+    }
     if args.base.is_some() && args.image.is_empty() {
         return Err(cli::usage("--base is added to a picture: ask for one with --image"));
     }
@@ -151,6 +157,7 @@ struct PhotonInput {
     header: Header,
     photons: Vec<Photon>,
     emitted_paths: u64,
+    tally: Tally,
 }
 
 impl PhotonInput {
@@ -164,7 +171,7 @@ impl PhotonInput {
         let Some(Number::Count(emitted_paths)) = input.end()?.measure("emitted_paths") else {
             bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
         };
-        Ok(Self { header: input.header().clone(), photons, emitted_paths })
+        Ok(Self { header: input.header().clone(), photons, emitted_paths, tally: input.tally() })
     }
 }
 
@@ -275,7 +282,7 @@ fn gather(
         }
         cache.interpolate(&sums, &mut picture.pixels);
     }
-    write_images(args, picture, images)?;
+    write_images(args, picture, images, &origin(args, photons, &query_header, tally))?;
     if let Some(trace) = trace {
         trace.finish(stages(typed, end, photons, &search, counts, tally))?.commit()?;
     }
@@ -326,7 +333,30 @@ fn read_cache(
     Ok((cache, first, tally))
 }
 
-fn write_images(args: &Args, mut picture: Picture, images: Vec<(&PathBuf, Output)>) -> anyhow::Result<()> {
+/// What a picture says of itself. Nothing that differs between two orders of the same work, so no history of the queries
+/// but their number and digest: equal pictures are equal files.
+fn origin(args: &Args, photons: &PhotonInput, queries: &Header, tally: Tally) -> Vec<(&'static str, String)> {
+    let told = |Tally { records, digest }| format!("{records}, digest {digest}");
+    let mut attributes = vec![
+        ("photonmap.k", args.k.to_string()),
+        ("photonmap.estimator", format!("{:?}", args.estimator)),
+        ("photonmap.kernel", format!("{:?}", args.kernel)),
+        ("photonmap.edges", format!("{:?}", args.edges)),
+        ("photonmap.photons", told(photons.tally)),
+        ("photonmap.queries", told(tally)),
+    ];
+    attributes.extend(queries.meaning("gathers").map(|gathers| ("photonmap.gathers", gathers.to_owned())));
+    let commands = pm_formats::as_commands(&photons.header.history);
+    attributes.extend(commands.lines().map(|command| ("photonmap.history", command.to_owned())));
+    attributes
+}
+
+fn write_images(
+    args: &Args,
+    mut picture: Picture,
+    images: Vec<(&PathBuf, Output)>,
+    attributes: &[(&str, String)],
+) -> anyhow::Result<()> {
     if images.is_empty() {
         return Ok(());
     }
@@ -336,18 +366,13 @@ fn write_images(args: &Args, mut picture: Picture, images: Vec<(&PathBuf, Output
     let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite());
     let odd = picture.pixels.iter().filter(|pixel| !finite(pixel)).count();
     ensure!(odd == 0, "{odd} pixels are not finite; is the base image damaged?");
-    // Nothing that differs between two orders of the same work: equal pictures are equal files.
-    let attributes = [
-        ("photonmap.k", args.k.to_string()),
-        ("photonmap.estimator", format!("{:?}", args.estimator)),
-        ("photonmap.kernel", format!("{:?}", args.kernel)),
-        ("photonmap.edges", format!("{:?}", args.edges)),
-    ];
+    let preview = picture.exposed(args.exposure);
     for (path, mut output) in images {
+        let picture = if Format::of(path)? == Format::Png { &preview } else { &picture };
         if Format::of(path)? == Format::Png && picture.clipped() > 0.0 {
             args.common.remark(format!("{}: {:.1} % of the pixels clipped", path.display(), picture.clipped() * 100.0));
         }
-        picture.write(path, &mut output, &attributes)?;
+        picture.write(path, &mut output, attributes)?;
         output.commit()?;
     }
     Ok(())

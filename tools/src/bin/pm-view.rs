@@ -2,20 +2,29 @@
 
 use anyhow::Context as _;
 use clap::Parser;
-use pm_formats::BlockReader;
-use pm_tools::cli::{self, Input, Typed, Voice, create_output, named, open_input};
-use pm_tools::view;
-use std::io::Write;
+use pm_formats::{BlockReader, Record};
+use pm_tools::cli::{self, Input, OutputArgs, Typed, Voice, create_output, named, open_bytes, open_input, usage};
+use pm_tools::image::{Comparison, Description, Picture};
+use pm_tools::report::Format;
+use pm_tools::setting::size;
+use pm_tools::view::{self, Import, Imported};
+use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Look into a stream of photons, queries or memory accesses.
+/// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points.
 ///
-/// Without options: header, history, and, read to the end, counts, digest and what each stage measured.
+/// Without options: header, history, and, read to the end, counts, digest and what each stage measured. Two pictures,
+/// a.exr b.exr: how far b is from a. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
+/// power_r,power_g,power_b, flux in watts times the emitted paths (1); from_x,from_y,from_z, towards where it came from
+/// (the normal); n_x,n_y,n_z (the direction it came from, else 0,1,0). Of queries: x,y,z; n_x,n_y,n_z (0,1,0);
+/// view_x,view_y,view_z, towards the viewer (the normal); pixel (number of the row, or one for all without --size);
+/// sample (number of the row); weight_r,weight_g,weight_b (1); material (0); diffuse_r,diffuse_g,diffuse_b (0.5); batch
+/// (0). In brackets is what holds where a column is missing.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
-    /// Streams to look into; `-` is standard input
+    /// Streams to look into, or one or two .exr pictures; `-` is standard input
     #[arg(default_value = "-")]
     streams: Vec<PathBuf>,
     /// Print the commands that made the stream, as they could be typed again; reads the header only
@@ -27,29 +36,121 @@ struct Args {
     /// Print records as tab-separated text, the first N or all
     #[arg(long, value_name = "N", group = "what", num_args = 0..=1, require_equals = true, default_missing_value = "18446744073709551615")]
     records: Option<u64>,
+    /// Make a stream of the rows of a file: CSV (commas, semicolons, tabs or blanks) or raw numbers
+    #[arg(long, value_name = "KIND", group = "what")]
+    import: Option<What>,
+    /// Names of the columns where the file has none, such as x,y,z,_,power_r; `_` skips one
+    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "import")]
+    columns: Option<Vec<String>>,
+    /// The file holds little-endian numbers without a header, not text
+    #[arg(long, value_name = "TYPE", requires = "import", requires = "columns")]
+    raw: Option<Raw>,
+    /// Photons: number of emitted paths, by which the powers are yet to be divided [default: 1]
+    #[arg(long, value_name = "N", requires = "import", value_parser = clap::value_parser!(u64).range(1..))]
+    emitted: Option<u64>,
+    /// Queries: size of the picture
+    #[arg(long, value_name = "WxH", requires = "import", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// How a comparison is written
+    #[arg(long, default_value = "table")]
+    format: Format,
+    #[command(flatten)]
+    output: OutputArgs,
     #[command(flatten)]
     voice: Voice,
 }
 
+#[derive(Clone, Copy, PartialEq, clap::ValueEnum)]
+enum What {
+    /// Photons
+    Photons,
+    /// Gather queries
+    Queries,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Raw {
+    /// 32-bit floats
+    F32,
+}
+
 const EXAMPLES: &str = "\
 Examples:
-  pm-view map.pmp
   pm-queries | pm-reorder hilbert | pm-view --records=10
-  pm-view --check out/*.pm?
-  pm-view --history trace.pmt";
+  pm-view --check out/map.pmp out/hilbert.pmq
+  pm-view a.exr b.exr
+  pm-view --import photons photons.csv --emitted 100000 -o map.pmp";
 
 fn main() -> ExitCode {
     cli::main("pm-view", run)
 }
 
-fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
-    let mut output = create_output(Path::new("-"))?;
-    for path in &args.streams {
-        let name = named(path);
-        let stream = open_input(path)?;
-        look(&args, &name, stream, &mut output).with_context(|| name.clone())?;
+fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    if let Some(what) = args.import {
+        return import(what, &args, typed);
+    }
+    let pictures = args.streams.iter().filter(|path| is_picture(path)).count();
+    if pictures > 0
+        && (pictures > 2 || pictures < args.streams.len() || args.history || args.check || args.records.is_some())
+    {
+        return Err(usage("pictures are described one at a time or compared two at a time, without other options"));
+    }
+    let mut output = create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?;
+    match &args.streams[..] {
+        [picture] if pictures == 1 => view::picture(&Description::read(picture)?, &mut output)?,
+        [a, b] if pictures == 2 => {
+            let comparison = Comparison::new(&Picture::read_exr(a)?, &Picture::read_exr(b)?)?;
+            if comparison.differing == 0 {
+                args.voice.remark("the pictures are the same to the last bit");
+            }
+            view::comparison(&named(a), &named(b), &comparison).write(args.format, &mut output)?;
+        }
+        streams => {
+            for path in streams {
+                let name = named(path);
+                let stream = open_input(path)?;
+                look(&args, &name, stream, &mut output).with_context(|| name.clone())?;
+            }
+        }
     }
     output.commit()
+}
+
+fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
+}
+
+fn import(what: What, args: &Args, typed: &Typed) -> anyhow::Result<()> {
+    let [path] = &args.streams[..] else {
+        return Err(usage("--import reads one file"));
+    };
+    match what {
+        What::Photons if args.size.is_some() => {
+            return Err(usage("--size belongs to queries; photons have no picture"));
+        }
+        What::Queries if args.emitted.is_some() => return Err(usage("--emitted belongs to photons")),
+        _ => {}
+    }
+    let import = Import {
+        columns: args.columns.clone(),
+        raw: args.raw.is_some(),
+        emitted: args.emitted.unwrap_or(1),
+        size: args.size,
+    };
+    let name = named(path);
+    let step = typed.step_from(path, None);
+    let input = BufReader::with_capacity(1 << 18, open_bytes(path)?);
+    match what {
+        What::Photons => write(view::import_photons(input, &import, step).context(name)?, args),
+        What::Queries => write(view::import_queries(input, &import, step).context(name)?, args),
+    }
+}
+
+fn write<T: Record>(imported: Imported<T>, args: &Args) -> anyhow::Result<()> {
+    if !imported.unused.is_empty() {
+        args.voice.remark(format!("columns that are not used: {}", imported.unused.join(", ")));
+    }
+    imported.write(args.output.create()?)?.commit()
 }
 
 fn look(args: &Args, name: &str, stream: BlockReader<Input>, output: &mut impl Write) -> anyhow::Result<()> {

@@ -31,6 +31,14 @@ pub fn named(path: &Path) -> String {
 /// # Errors
 /// If there is no such file, if a terminal would have to type the stream, or if the header is not one of ours.
 pub fn open_input(path: &Path) -> anyhow::Result<BlockReader<Input>> {
+    BlockReader::new(open_bytes(path)?).with_context(|| named(path))
+}
+
+/// Opens an input, whatever it holds.
+///
+/// # Errors
+/// If there is no such file, or if a terminal would have to type it.
+pub fn open_bytes(path: &Path) -> anyhow::Result<Input> {
     let name = named(path);
     let file = if path == Path::new("-") {
         let stdin = io::stdin();
@@ -45,8 +53,7 @@ pub fn open_input(path: &Path) -> anyhow::Result<BlockReader<Input>> {
     if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
         return Err(usage(format!("{name} is a folder; a stream is expected")));
     }
-    let input = Input { name: name.clone(), file: BufReader::with_capacity(1 << 18, file) };
-    BlockReader::new(input).context(name)
+    Ok(Input { name, file: BufReader::with_capacity(1 << 18, file) })
 }
 
 impl Input {

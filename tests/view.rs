@@ -1,0 +1,119 @@
+//! Do other renderers' points come in, go out again, and through every program; and are pictures compared rightly?
+
+use crate::streams::check;
+use crate::support::{Folder, same_text};
+use pm_tools::image::Picture;
+use std::path::Path;
+
+/// The same text but for the last digit of directions: those on an edge of the octahedron have two codes each.
+fn same_numbers(what: &str, expected: &[u8], got: &[u8]) {
+    let words = |text: &[u8]| -> Vec<String> {
+        String::from_utf8(text.to_vec()).unwrap().split_whitespace().map(str::to_owned).collect()
+    };
+    let (expected, got) = (words(expected), words(got));
+    assert_eq!(expected.len(), got.len(), "{what}");
+    for (x, y) in expected.iter().zip(&got) {
+        let near =
+            |x: &str, y: &str| matches!((x.parse::<f64>(), y.parse::<f64>()), (Ok(x), Ok(y)) if (x - y).abs() < 3e-7);
+        assert!(x == y || near(x, y), "{what}: {x} became {y}");
+    }
+}
+
+#[test]
+fn what_is_exported_can_be_imported() {
+    let folder = Folder::with_streams();
+    for (kind, file, options) in [("photons", "map.pmp", "--emitted 7"), ("queries", "q.pmq", "--size 16x12")] {
+        let text = folder.run(&format!("pm-view --records {file} -o out.tsv")).ok();
+        assert!(text.stdout.is_empty());
+        let stream = folder.run(&format!("pm-view --import {kind} out.tsv {options}")).ok().stdout;
+        assert!(check(&stream).unwrap().records > 100);
+        let again = folder.feed("pm-view --records", &stream).ok().stdout;
+        same_numbers(kind, &folder.read("out.tsv"), &again);
+        // From a pipe all is the same but the name of the input.
+        let piped = folder.feed(&format!("pm-view --import {kind} {options}"), &folder.read("out.tsv")).ok().stdout;
+        assert_eq!(check(&piped).unwrap(), check(&stream).unwrap());
+    }
+}
+
+#[test]
+fn imported_points_go_through_every_program() {
+    let folder = Folder::with_streams();
+    let paths = folder.run("pm-view map.pmp").ok();
+    let paths = paths.text().lines().find(|line| line.contains("emitted_paths")).expect("a count").to_owned();
+    let digits: String = paths.rsplit("emitted_paths").next().unwrap().chars().filter(char::is_ascii_digit).collect();
+    folder.run("pm-view --records map.pmp -o map.tsv").ok();
+    folder.run("pm-view --records q.pmq -o q.tsv").ok();
+    folder.run(&format!("pm-view --import photons map.tsv --emitted {digits} -o theirs.pmp")).ok();
+    folder.run("pm-view --import queries q.tsv --size 16x12 -o theirs.pmq").ok();
+    let table = folder
+        .sh("pm-reorder hilbert theirs.pmq | pm-gather -q theirs.pmp --image theirs.exr | pm-cachesim --format csv");
+    assert!(table.ok().text().lines().nth(1).is_some_and(|row| row.contains("imported, hilbert")));
+
+    // The searches are those of the streams themselves.
+    let tally = |line: &str| check(&folder.run(line).ok().stdout).unwrap();
+    assert_eq!(tally("pm-gather map.pmp q.pmq"), tally("pm-gather -q theirs.pmp theirs.pmq"));
+    assert!(Picture::read_exr(&folder.path("theirs.exr")).unwrap().pixels.iter().flatten().sum::<f32>() > 0.0);
+}
+
+#[test]
+fn faults_leave_no_output() {
+    let folder = Folder::new();
+    folder.write("bad.csv", "x,y,z\n1,2,3\n1,nan,3\n");
+    let fault = folder.run("pm-view --import photons bad.csv -o out.pmp");
+    same_text("fault", "pm-view: bad.csv: line 3: y is `nan`; a finite number is needed", fault.fails(1));
+    assert!(folder.run("pm-view --import photons bad.csv").stdout.is_empty());
+    for options in ["--columns x,y,z,powr_r", "--raw f32", "--size 2x2", "--emitted 0", "--check", "other.csv"] {
+        assert_eq!(folder.run(&format!("pm-view --import photons bad.csv -o out.pmp {options}")).code, 2, "{options}");
+    }
+    folder.write("pixel.csv", "x,y,z,pixel\n1,2,3,0\n");
+    let _ = folder.run("pm-view --import queries pixel.csv").fails(2);
+    assert_eq!(folder.run("pm-view --columns x,y,z bad.csv").code, 2);
+    assert_eq!(folder.names(), ["bad.csv", "pixel.csv"]);
+    folder.write("more.csv", "x,y,z,colour\n1,2,3,red\n");
+    let remark = folder.run("pm-view --import photons more.csv -o out.pmp");
+    assert_eq!((remark.code, remark.stderr.trim()), (0, "pm-view: columns that are not used: colour"));
+}
+
+fn exr(folder: &Folder, name: &str, size: [u32; 2], value: f32) {
+    let mut picture = Picture::black(size);
+    picture.pixels.fill([value, 2.0 * value, 4.0 * value]);
+    let mut bytes = vec![];
+    picture.write(Path::new(name), &mut bytes, &[("photonmap.k", "9".into())]).unwrap();
+    folder.write(name, bytes);
+}
+
+#[test]
+fn two_pictures_are_compared() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [3, 2], 1.0);
+    exr(&folder, "b.exr", [3, 2], 1.01);
+    exr(&folder, "c.exr", [2, 3], 1.0);
+    let csv = folder.run("pm-view a.exr b.exr --format csv").ok();
+    let mut lines = csv.text().lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (names, values) = (lines.next().unwrap(), lines.next().unwrap());
+    let value = |name: &str| -> f64 { values[names.iter().position(|n| *n == name).unwrap()].parse().unwrap() };
+    for name in ["ratio_r", "ratio_g", "ratio_b"] {
+        assert!((value(name) - 1.01).abs() < 1e-6, "{name}");
+    }
+    assert!((value("max_difference") - 0.04).abs() < 1e-6);
+    assert!((value("rmse") - (21e-4f64 / 3.0).sqrt()).abs() < 1e-6);
+    assert_eq!((value("pixels"), value("differing")), (6.0, 6.0));
+    let same = folder.run("pm-view a.exr a.exr --format json");
+    assert_eq!((same.code, same.stderr.trim()), (0, "pm-view: the pictures are the same to the last bit"));
+    assert!(same.text().contains("\"differing\": 0"), "{}", same.text());
+    assert!(folder.run("pm-view a.exr c.exr").fails(1).contains("3x2 and 2x3"));
+    let _ = folder.run("pm-view a.exr b.exr c.exr").fails(2);
+    let _ = folder.run("pm-view --check a.exr").fails(2);
+}
+
+#[test]
+fn a_picture_is_described() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [3, 2], 0.5);
+    let text = folder.run("pm-view a.exr").ok().text().to_owned();
+    assert!(
+        text.starts_with("picture      3 x 2 pixels\nchannel      B: 2.000000 to 2.000000, mean 2.000000\n"),
+        "{text}"
+    );
+    assert!(text.contains("comments     photonmap.k = 9\n") && text.contains("software     pm "), "{text}");
+}
