@@ -32,17 +32,15 @@ fn same_for_any_threads(folder: &Folder, line: &str, get: impl Fn(&[u8]) -> Vec<
 #[test]
 fn threads_change_no_byte_of_a_stream() {
     let folder = Folder::with_streams();
-    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
     for line in [
         // Several times the paths that are traced as one piece of work.
         "pm-photons -n 40000",
-        "pm-reorder hilbert q.pmq",
-        "pm-reorder random --per batch q.pmq",
         "pm-gather map.pmp q.pmq",
         "pm-gather --map brute --start-radius 0.01 map.pmp q.pmq",
-        "pm-cachesim --sizes 4K,64K t.pmt",
-        "pm-view t.pmt",
-        "pm-view --records q.pmq",
+        "pm-photons --caustics -n 20000",
+        "pm-queries --size 16x12 --gathers 9 --irradiance-cache 0.2",
+        "pm-queries --size 16x12 --gathers 4 --samples 3 --min-gather-dist 0.1 --sampling uniform",
+        "pm-queries --size 16x12 --direct-visualisation",
     ] {
         same_for_any_threads(&folder, line, <[u8]>::to_vec);
     }
@@ -214,4 +212,35 @@ fn pipe_and_files_give_the_same_records() {
     let table = folder.run("pm-cachesim t.pmt").ok();
     same_text("table", table.text(), folder.feed("pm-cachesim", &pipe.stdout).ok().text());
     same_text("table", table.text(), folder.feed("pm-cachesim -", &folder.read("t.pmt")).ok().text());
+}
+
+#[test]
+fn cached_irradiance_is_the_same_for_every_order_and_thread_count() {
+    let folder = Folder::new();
+    folder.run("pm-photons -n 5000 -o map.pmp").ok();
+    let options = "--size 20x16 --gathers 16 --irradiance-cache 0.2";
+    let mut pictures = vec![];
+    for (order, reorder, threads) in [
+        ("", "", 1),
+        ("--order tiled --tile 3", "", 3),
+        ("", "| pm-reorder hilbert", 2),
+        ("--order tiled", "| pm-reorder random --per batch", 1),
+    ] {
+        folder
+            .sh(&format!(
+                "pm-queries {options} {order} -t {threads} --base base.exr {reorder} |
+                 pm-gather -t {threads} -k 20 --base base.exr --image x.exr -o x.pmt"
+            ))
+            .ok();
+        pictures.push(folder.read("x.exr"));
+        // The trace is whole as well: a search for each query of a record.
+        folder.run("pm-cachesim x.pmt").ok();
+    }
+    for picture in &pictures[1..] {
+        same_bytes("cached irradiance in another order", &pictures[0], picture);
+    }
+    // Without gradients it is another picture.
+    folder.run(&format!("pm-queries {options} --base base.exr -o q.pmq")).ok();
+    folder.run("pm-gather map.pmp q.pmq -k 20 --base base.exr --no-gradients --image x.exr --no-trace").ok();
+    assert!(folder.read("x.exr") != pictures[0]);
 }

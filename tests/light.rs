@@ -141,3 +141,32 @@ fn a_caustic_map_of_its_own_leaves_the_light_and_takes_the_sparkle() {
     let (rough, smooth) = (roughness(&whole), roughness(&sum));
     assert!(smooth < rough, "{smooth} is not smoother than {rough}");
 }
+
+#[test]
+fn cached_irradiance_gives_the_picture_with_a_fraction_of_the_searches() {
+    let folder = Folder::new();
+    folder.run("pm-photons -n 100000 -t 2 -o map.pmp").ok();
+    let searches = |name: &str, options: &str| {
+        // Without lamps met in the spheres, whose rare bright speckles would drown what is compared.
+        let options = format!("--gathers 100 --no-caustics --base {name}.base.exr {options}");
+        let line = format!("pm-queries --size 96x96 -t 2 -o {name}.pmq {options}");
+        folder.run(&line).ok();
+        let gather =
+            format!("pm-gather map.pmp {name}.pmq -t 2 --base {name}.base.exr --image {name}.exr -o {name}.pmt");
+        folder.run(&gather).ok();
+        let check = folder.run(&format!("pm-view --check {name}.pmt")).ok();
+        let words: Vec<String> = check.text().split_whitespace().map(str::to_owned).collect();
+        words[2].parse::<f64>().unwrap()
+    };
+    let full = searches("full", "");
+    let cached = searches("cached", "--irradiance-cache 0.1");
+    assert!(cached < full / 3.0, "{cached} searches for {full}");
+    let [full, cached] = ["full.exr", "cached.exr"].map(|name| Picture::read_exr(&folder.path(name)).unwrap());
+    let ratio = worst(mean(&cached, 0..96, 0..96), mean(&full, 0..96, 0..96));
+    assert!((ratio - 1.0).abs() < 0.03, "mean with the cache / mean without = {ratio}");
+    // Walls, where a leak or a wrong gradient would show.
+    for (columns, rows) in [(40..56, 20..40), (6..16, 30..60), (80..90, 30..60), (30..66, 86..92)] {
+        let ratio = worst(mean(&cached, columns.clone(), rows.clone()), mean(&full, columns, rows));
+        assert!((ratio - 1.0).abs() < 0.06, "a wall with the cache / without = {ratio}");
+    }
+}

@@ -17,7 +17,7 @@ pub struct SceneArgs {
     #[arg(long)]
     pub glossy: bool,
     /// Add a parallelogram of light: corner, two edges from it, radiance; it shines towards u x v; may be repeated
-    #[arg(long, value_name = "X,Y,Z,UX,UY,UZ,VX,VY,VZ,R,G,B", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z,UX,UY,UZ,VX,VY,VZ,R,G,B", allow_hyphen_values = true, hide_short_help = true)]
     pub quad_light: Vec<QuadLight>,
     /// Print the scene's materials on standard error
     #[arg(short, long)]

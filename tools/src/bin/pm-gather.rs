@@ -64,10 +64,10 @@ struct Args {
     #[arg(long, value_name = "FILE")]
     image: Vec<PathBuf>,
     /// Take cached irradiance as it is at its record, without the gradients
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     no_gradients: bool,
     /// Stops by which PNG previews are brightened; EXR pictures keep their radiance
-    #[arg(long, value_name = "STOPS", default_value = "0", allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", default_value = "0", allow_hyphen_values = true, hide_short_help = true)]
     exposure: f32,
     /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
     #[arg(long, value_name = "FILE")]

@@ -59,7 +59,7 @@ struct Args {
     #[arg(long, value_name = "A", value_parser = accuracy, conflicts_with = "direct_visualisation")]
     irradiance_cache: Option<f32>,
     /// Least and greatest distance at which a record of cached irradiance still serves, in pixels
-    #[arg(long, value_name = "MIN,MAX", default_value = "3,20", value_parser = spacing)]
+    #[arg(long, value_name = "MIN,MAX", default_value = "3,20", value_parser = spacing, hide_short_help = true)]
     spacing: [f32; 2],
     /// Shadow rays for each point seen, for the direct light
     #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
@@ -218,8 +218,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                     }
                 };
                 rays.pixel(
-                    x,
-                    span.row,
+                    [x, span.row],
                     span.leaves,
                     cache.as_ref(),
                     |query| cast.queries.push(query),

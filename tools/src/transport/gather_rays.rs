@@ -123,8 +123,7 @@ impl<'a> GatherRays<'a> {
     /// are.
     pub fn pixel(
         &self,
-        x: u32,
-        y: u32,
+        [x, y]: [u32; 2],
         leaves: Leaves,
         cache: Option<&CacheRecords>,
         mut query: impl FnMut(Query),

@@ -279,7 +279,7 @@ fn rays_with(scene: &Scene, camera: Camera, options: GatherOptions) -> (Vec<pm_f
     for y in 0..20 {
         for x in 0..24 {
             let pixel = (y * 24 + x) as usize;
-            rays.pixel(x, y, Leaves::All, None, |query| queries.push(query), |l| light[pixel] += l, &mut counts);
+            rays.pixel([x, y], Leaves::All, None, |query| queries.push(query), |l| light[pixel] += l, &mut counts);
         }
     }
     if options.method == Method::FinalGather {

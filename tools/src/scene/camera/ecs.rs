@@ -78,11 +78,14 @@ pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Re
     Ok(choice)
 }
 
+/// Area lights, each with where it was read, and a warning about other lights.
+type Lights = (Vec<(Place, QuadLight)>, Option<String>);
+
 /// Reads the area lights of an `.ecs` file that came from `whence`, and a warning if it has lights of other kinds.
 ///
 /// # Errors
 /// [`SceneError::Camera`] for what should be a number and is none.
-pub(crate) fn lights(text: &str, whence: &str) -> Result<(Vec<(Place, QuadLight)>, Option<String>), SceneError> {
+pub(crate) fn lights(text: &str, whence: &str) -> Result<Lights, SceneError> {
     let ecs = read(text, whence)?;
     let warning = (!ecs.other_lights.is_empty()).then(|| {
         let names = ecs.other_lights.join(" ");

@@ -22,9 +22,9 @@ impl<T: Record> Spool<T> {
     }
 
     pub(super) fn push(&mut self, batch: u64, position: [f32; 3], record: &T) -> anyhow::Result<()> {
-        for axis in 0..3 {
-            self.bounds.min[axis] = self.bounds.min[axis].min(position[axis]);
-            self.bounds.max[axis] = self.bounds.max[axis].max(position[axis]);
+        for (axis, x) in position.into_iter().enumerate() {
+            self.bounds.min[axis] = self.bounds.min[axis].min(x);
+            self.bounds.max[axis] = self.bounds.max[axis].max(x);
         }
         self.records += 1;
         let written = self.file.write_all(&batch.to_le_bytes());
