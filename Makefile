@@ -38,7 +38,8 @@ out/map.pmp:
 	$(LAUNCH) $(BIN)/pm-photons -n $(PHOTONS) -t $(THREADS) -o $@
 
 out/scanline.pmq out/direct.exr &: | programs out
-	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --gathers $(GATHERS) -t $(THREADS) --base out/direct.exr -o out/scanline.pmq
+	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --gathers $(GATHERS) -t $(THREADS) \
+	    --no-caustics --base out/direct.exr -o out/scanline.pmq
 
 out/tiled.pmq:
 	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --gathers $(GATHERS) --order tiled --tile 16 -t $(THREADS) -o $@
@@ -55,9 +56,19 @@ out/random.pmq: out/scanline.pmq
 $(ORDERS:%=out/%.pmt): out/%.pmt: out/map.pmp out/%.pmq
 	$(LAUNCH) $(BIN)/pm-gather $^ -t $(THREADS) -o $@
 
-# One picture is enough: every order gives the same, to the bit (the tests show it).
-out/cornell.exr out/cornell.png &: out/map.pmp out/hilbert.pmq out/direct.exr
-	$(LAUNCH) $(BIN)/pm-gather out/map.pmp out/hilbert.pmq -t $(THREADS) --no-trace --base out/direct.exr \
+# One picture is enough: every order gives the same, to the bit (the tests show it). Light that comes from the lamp
+# through the spheres is sharp, so it has a map of its own, looked up where the eye sees.
+out/soft.exr: out/map.pmp out/hilbert.pmq out/direct.exr
+	$(LAUNCH) $(BIN)/pm-gather out/map.pmp out/hilbert.pmq -t $(THREADS) --no-trace --base out/direct.exr --image $@
+
+out/caustics.pmp: | programs out
+	$(LAUNCH) $(BIN)/pm-photons --caustics -n $(PHOTONS) -t $(THREADS) -o $@
+
+out/seen.pmq: | programs out
+	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --direct-visualisation -t $(THREADS) -o $@
+
+out/cornell.exr out/cornell.png &: out/caustics.pmp out/seen.pmq out/soft.exr
+	$(LAUNCH) $(BIN)/pm-gather out/caustics.pmp out/seen.pmq -k 50 -t $(THREADS) --no-trace --base out/soft.exr \
 	    --image out/cornell.exr --image out/cornell.png
 
 $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
