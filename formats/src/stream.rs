@@ -12,7 +12,7 @@ use std::marker::PhantomData;
 pub struct RecordReader<T, R> {
     blocks: BlockReader<R>,
     tally: Tally,
-    beside: Vec<Block>,
+    beside: Vec<(Block, Tally)>,
     records: PhantomData<T>,
 }
 
@@ -56,8 +56,9 @@ impl<T: Record, R: Read> RecordReader<T, R> {
                 Some(block) if block.section == Section::Records => break block,
                 Some(block) => {
                     let damaged = || self.blocks.damaged("a block beside the records does not hold what it says");
-                    self.tally += tally_beside(&block).ok_or_else(damaged)?;
-                    self.beside.push(block);
+                    let tally = tally_beside(&block).ok_or_else(damaged)?;
+                    self.tally += tally;
+                    self.beside.push((block, tally));
                 }
                 None => {
                     self.blocks.end(self.tally)?;
@@ -71,9 +72,9 @@ impl<T: Record, R: Read> RecordReader<T, R> {
         Ok(Some((block.meta, records)))
     }
 
-    /// The blocks that stood beside the records read since this was asked last. Whoever passes the records on passes
-    /// them on as well.
-    pub fn take_beside(&mut self) -> Vec<Block> {
+    /// The blocks that stood beside the records read since this was asked last, with what each adds to the digest.
+    /// Whoever passes the records on passes them on as well.
+    pub fn take_beside(&mut self) -> Vec<(Block, Tally)> {
         std::mem::take(&mut self.beside)
     }
 

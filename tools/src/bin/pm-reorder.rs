@@ -3,7 +3,7 @@
 use anyhow::Context as _;
 use clap::Parser;
 use indicatif::BinaryBytes;
-use pm_formats::{Block, BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport, tally_beside};
+use pm_formats::{Block, BlockMeta, Bounds, Query, RecordReader, RecordWriter, StageReport, Tally};
 use pm_tools::cli::{self, Output, OutputArgs, Progress, Typed, Voice, named, open_input};
 use pm_tools::order::{Per, Reorder, Sorted, hilbert_keys};
 use pm_tools::random::Random;
@@ -93,10 +93,8 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 }
 
 /// Writes blocks that stand beside the queries as they are.
-fn pass_on(blocks: Vec<Block>, output: &mut RecordWriter<Query, Output>) -> anyhow::Result<()> {
-    for block in blocks {
-        // What it adds to the digest was checked when it was read.
-        let tally = tally_beside(&block).context("a block that was checked")?;
+fn pass_on(blocks: Vec<(Block, Tally)>, output: &mut RecordWriter<Query, Output>) -> anyhow::Result<()> {
+    for (block, tally) in blocks {
         output.write_beside(&block, tally)?;
     }
     Ok(())
