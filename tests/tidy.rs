@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 /// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("cache", &["size", "formats"]), // never photon_map: it sees accesses only
+    ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),
     ("gather", &["photon_map", "irradiance", "film", "formats"]),

@@ -3,6 +3,7 @@
 //! `README.md` beside this crate is the map of the code and says which module may know which.
 
 pub mod cache;
+pub mod chart;
 pub mod cli;
 pub mod film;
 pub mod gather;
