@@ -5,7 +5,7 @@ use clap::Parser;
 use pm_formats::trace::TraceWriter;
 use pm_formats::{
     Block, BlockReader, End, Header, Kind, Number, Photon, RecordReader, Section, StageReport, Step, Tally,
-    decode_irradiance, decode_weights, tally_beside,
+    decode_irradiance, decode_weights,
 };
 use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
 use pm_tools::film::Film;
@@ -322,11 +322,16 @@ fn read_cache(
         let Some(block) = queries.next_block()? else { break None };
         let read = match block.section {
             Section::Records => break Some(block),
-            Section::IrradianceRecords => decode_irradiance(&block).map(|more| records.extend(more)),
-            _ => decode_weights(&block).map(|more| weights.extend(more)),
+            Section::IrradianceRecords => decode_irradiance(&block).map(|(more, tally)| {
+                records.extend(more);
+                tally
+            }),
+            _ => decode_weights(&block).map(|(more, tally)| {
+                weights.extend(more);
+                tally
+            }),
         };
-        let beside = read.and_then(|()| tally_beside(&block));
-        tally += beside.ok_or_else(|| queries.damaged("a block beside the queries does not hold what it says"))?;
+        tally += read.ok_or_else(|| queries.damaged("a block beside the queries does not hold what it says"))?;
     };
     let cache = CachedIrradiance::new(records, weights, queries.header().pixels(), gradients);
     let cache = cache.ok_or_else(|| queries.damaged("a pixel takes irradiance that is not cached"))?;
