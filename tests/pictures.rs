@@ -33,7 +33,7 @@ fn an_exr_picture_says_how_it_was_made() {
         "photonmap.kernel = Constant".to_owned(),
         "photonmap.edges = Cut".to_owned(),
         "photonmap.gathers = 4".to_owned(),
-        "photonmap.history = pm-photons -n 2000 > map.pmp".to_owned(),
+        "photonmap.history = pm-photons -n 2000".to_owned(),
         format!("photonmap.photons = {}", checked("map.pmp")),
         format!("photonmap.queries = {}", checked("q.pmq")),
     ] {

@@ -55,8 +55,11 @@ struct Args {
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
     estimator: Estimator,
-    /// Look irradiance up that was computed at every fourth photon beforehand (Christensen): one near photon is searched
-    /// for instead of k. Queries of glossy surfaces search for k as ever
+    /// Take the irradiance of the nearest of every fourth photon, computed beforehand
+    ///
+    /// Christensen's method: one photon with a similar normal is searched for instead of k, in a tree of its own, which is
+    /// what the trace holds. The searches for k that are made beforehand are counted in the trace's end block. Queries of
+    /// glossy surfaces search for k as ever. Some error for far fewer reads; k should be well above 16.
     #[arg(long)]
     precomputed: bool,
     /// One of how many photons holds precomputed irradiance
