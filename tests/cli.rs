@@ -49,6 +49,8 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-gather map.pmp q.pmq --max-dist nan", "a distance of 0 or more"),
         ("pm-gather map.pmp q.pmq --start-radius 0", "a radius above 0, `inf` or `auto`"),
         ("pm-gather map.pmp q.pmq --map octree", "kd, brute"),
+        ("pm-gather map.pmp q.pmq --precomputed-share 2", "--precomputed"),
+        ("pm-gather map.pmp q.pmq --precomputed --precomputed-share 0", "0"),
         ("pm-gather map.pmp q.pmq --image out", "out: an image's name ends in .exr or .png"),
         ("pm-gather map.pmp q.pmq --base direct.exr", "--image"),
         ("pm-gather map.pmp q.pmq --no-trace -o t.pmt", "--no-trace"),

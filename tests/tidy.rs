@@ -11,7 +11,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),
-    ("gather", &["photon_map", "irradiance", "film", "formats"]),
+    ("gather", &["photon_map", "irradiance", "film", "parallel", "random", "formats"]),
     ("hemisphere", &[]),
     ("image", &["cli"]),
     ("irradiance", &["hemisphere", "film", "formats"]),
