@@ -4,7 +4,7 @@ mod generative;
 mod hilbert;
 mod sorted;
 
-pub use generative::{Generative, Leaves, Span};
+pub use generative::{Generative, Leaves, Pass, Span};
 pub use hilbert::{HILBERT_BITS, hilbert_key, hilbert_keys};
 pub use sorted::Sorted;
 
