@@ -36,6 +36,8 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-queries --gathers 0", "--gathers"),
         ("pm-queries --order diagonal", "scanline, tiled"),
         ("pm-queries --order tiled --tile 0", "--tile"),
+        ("pm-queries --order direction-binned --gathers 4 --bins 5", "give at most 4"),
+        ("pm-queries --order direction-binned --bins 0", "--bins"),
         ("pm-queries --eye 1,2", "1,2"),
         ("pm-queries --eye 1,2,inf", "1,2,inf"),
         ("pm-queries --base direct.jpg", "direct.jpg: an image's name ends in .exr or .png"),

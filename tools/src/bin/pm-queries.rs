@@ -49,8 +49,11 @@ struct Args {
     /// Width and height of a tile in pixels
     #[arg(long, value_name = "PIXELS", default_value = "16", value_parser = clap::value_parser!(u32).range(1..))]
     tile: u32,
+    /// Bins of the hemisphere for --order direction-binned, at most as many as --gathers; default: as many
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), hide_short_help = true)]
+    bins: Option<u32>,
     /// In which order the gather rays of a point are cast
-    #[arg(long, default_value = "raster")]
+    #[arg(long, default_value = "raster", hide_short_help = true)]
     strata: Strata,
     /// Also write the direct and emitted light as an EXR or PNG picture, before the stream ends
     #[arg(long, value_name = "FILE")]
@@ -79,6 +82,8 @@ enum Order {
     Scanline,
     /// Square tiles, each in scanline order and a batch; what is seen by reflection or refraction comes last in each
     Tiled,
+    /// As tiled, with a pass over each tile for every bin of the hemisphere
+    DirectionBinned,
 }
 
 const EXAMPLES: &str = "\
@@ -101,6 +106,9 @@ enum LeastDistance {
 const AUTO_SHARE: f32 = 0.01;
 /// Most gather rays of all samples of a pixel: leaves room for 256 points seen by one eye ray in the sample numbers.
 const MOST_GATHERS: u64 = 1 << 24;
+
+/// Gather rays that are cast as one piece of work, at least.
+const WORTH_A_JOB: u64 = 2000;
 
 fn least_distance(text: &str) -> Result<LeastDistance, String> {
     match text.parse::<f32>() {
@@ -147,6 +155,17 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let order = match args.order {
         Order::Scanline => Generative::Scanline,
         Order::Tiled => Generative::Tiled { tile: args.tile },
+        Order::DirectionBinned => {
+            // Points seen that are asked at themselves have no hemisphere.
+            let strata = if args.direct_visualisation { 1 } else { args.gathers };
+            let bins = args.bins.unwrap_or(strata);
+            if bins > strata {
+                return Err(cli::usage(format!(
+                    "--bins {bins} is more than the {strata} strata: give at most {strata}"
+                )));
+            }
+            Generative::DirectionBinned { tile: args.tile, bins }
+        }
     };
     let mut header = header(&scene);
     header.image = size;
@@ -185,7 +204,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         direct: base.is_some() || args.irradiance_cache.is_some(),
         strata: args.strata,
     };
-    let rays = GatherRays::new(&scene, camera, options);
+    let rays = GatherRays::new(&scene, camera, options).with_bins(order.bins());
     let wanted = base.is_some();
     let mut film = Film::new(if wanted { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
     // The threads only need its unit.
@@ -201,44 +220,52 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let progress = Progress::new(Some(pixels), "pixels", args.common.quiet);
     let mut counts = RayCounts::default();
     let mut spans = order.spans(size);
+    // A span of few rays is not worth a message to a thread and back.
+    let rays_a_pixel = u64::from(args.samples) * u64::from(gathers.div_ceil(order.bins()));
+    let some_spans = || {
+        let (mut some, mut rays) = (vec![], 0);
+        while rays < WORTH_A_JOB {
+            let Some(span) = spans.next() else { break };
+            rays += u64::from(span.columns.end - span.columns.start) * rays_a_pixel;
+            some.push(span);
+        }
+        anyhow::Ok(Some(some).filter(|some| !some.is_empty()))
+    };
+    let cast = |span: &Span| {
+        let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
+        let mut too_bright = None;
+        for x in span.columns.clone() {
+            let pixel = span.row * size[0] + x;
+            let light = |radiance: glam::Vec3| {
+                if wanted {
+                    match unit.quantise(radiance.as_dvec3().into()) {
+                        Some(units) => cast.light.push((pixel, units)),
+                        None => too_bright = Some(Overflow(pixel)),
+                    }
+                }
+            };
+            let query = |query| cast.queries.push(query);
+            rays.pixel([x, span.row], span.pass, cache.as_ref(), query, light, &mut cast.counts);
+        }
+        too_bright.map_or(Ok(cast), Err)
+    };
     in_order(
         args.common.threads(),
-        || anyhow::Ok(spans.next()),
-        |span: Span| {
-            let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
-            let mut too_bright = None;
-            for x in span.columns.clone() {
-                let pixel = span.row * size[0] + x;
-                let light = |radiance: glam::Vec3| {
-                    if wanted {
-                        match unit.quantise(radiance.as_dvec3().into()) {
-                            Some(units) => cast.light.push((pixel, units)),
-                            None => too_bright = Some(Overflow(pixel)),
-                        }
-                    }
-                };
-                rays.pixel(
-                    [x, span.row],
-                    span.leaves,
-                    cache.as_ref(),
-                    |query| cast.queries.push(query),
-                    light,
-                    &mut cast.counts,
-                );
+        some_spans,
+        |spans: Vec<Span>| spans.iter().map(|span| (cast(span), span.clone())).collect::<Vec<_>>(),
+        |casts| {
+            for (cast, span) in casts {
+                let cast = cast?;
+                output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
+                for (pixel, units) in cast.light {
+                    film.add(pixel, units)?;
+                }
+                counts += cast.counts;
+                if span.pass.is_first() {
+                    progress.add(u64::from(span.columns.end - span.columns.start));
+                }
             }
-            too_bright.map_or(Ok((cast, span)), Err)
-        },
-        |cast| {
-            let (cast, span) = cast?;
-            output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
-            for (pixel, units) in cast.light {
-                film.add(pixel, units)?;
-            }
-            counts += cast.counts;
-            if span.first_pass {
-                progress.add(u64::from(span.columns.end - span.columns.start));
-            }
-            Ok(())
+            anyhow::Ok(())
         },
     )?;
     drop(progress);
