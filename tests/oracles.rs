@@ -159,6 +159,27 @@ fn a_larger_cache_never_fetches_more() {
 }
 
 #[test]
+fn no_policy_fetches_less_than_the_optimum() {
+    for order in [None, Some("hilbert")] {
+        let folder = trace(order);
+        for ways in ["full", "8", "2"] {
+            let policies = "lru,fifo,clock,random,random:1,plru,min,min-bypass";
+            let rows = simulated(&folder, &format!("--sizes 8K --ways {ways} --policies {policies}"));
+            assert_eq!(rows.len(), 8, "{:?}", rows.keys());
+            let fetches = |policy: &str| rows[&format!("8K,{ways},128,{policy}")]["fetches"];
+            for policy in policies.split(',') {
+                let least = if policy == "min-bypass" { policy } else { "min" };
+                assert!(fetches(least) <= fetches(policy), "{order:?}: {policy}, {ways} ways");
+            }
+            assert!(
+                fetches("min-bypass") <= fetches("min") && fetches("min") < fetches("lru"),
+                "{order:?}, {ways} ways"
+            );
+        }
+    }
+}
+
+#[test]
 fn without_a_cache_every_record_is_fetched() {
     let folder = trace(None);
     let (reads, _) = reads(&folder);

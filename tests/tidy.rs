@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Who may know whom, among the modules of `tools`: a new module needs a line here, a new acquaintance a word, and both a
 /// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
 const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("cache", &["size", "formats"]), // never photon_map: it sees accesses only
+    ("cache", &["size", "random", "formats"]), // never photon_map: it sees accesses only
     ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),

@@ -1,7 +1,7 @@
 //! How fast are the simulated caches, as ratios to the plainest loop that does the job?
 //!
 //! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to place, and a
-//! doubly linked list of places. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
+//! doubly linked list of places. For sets, it is the blocks of each set in order of use, all of them searched. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
 //! interleaved and medians compared, so that a busy machine slows both alike. Both must count the same.
 //!
 //! The trace is that of k-nearest-neighbour searches in an implicit kd-tree, for queries in no order and in an order that
@@ -44,22 +44,43 @@ type Contestant<'a> = (&'a str, Box<dyn Fn() -> u64 + 'a>);
 fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     let offsets: Vec<u32> = nodes.iter().map(|&node| padded(node)).collect();
     let packed: Vec<u32> = nodes.iter().map(|&node| node * 20).collect();
+    let offsets = &offsets;
     let one = ["128K,full,128,lru"];
     let ten: Vec<String> = (0..10).map(|i| format!("{},full,128,lru", 8192_u64 << i)).collect();
     let ten: Vec<&str> = ten.iter().map(String::as_str).collect();
-    let contestants: Vec<Contestant> = vec![
+    let one_by_one = |caches: &[&str]| caches.iter().map(|c| simulate(offsets, &[*c])).sum();
+    let mut contestants: Vec<Contestant> = vec![
         ("yardstick: table and list", Box::new(|| naive(blocks, LINES))),
-        ("the same list fed accesses", Box::new(|| naive_sink(&offsets, LINES))),
-        ("128K,full,128,lru", Box::new(|| simulate(&offsets, &one))),
+        ("the same list fed accesses", Box::new(|| naive_sink(offsets, LINES))),
+        ("128K,full,128,lru", Box::new(|| simulate(offsets, &one))),
         ("... packed, 1 in 8 spans lines", Box::new(|| simulate(&packed, &one))),
-        ("128K,8,128,lru", Box::new(|| simulate(&offsets, &["128K,8,128,lru"]))),
-        ("3 sizes, one stack", Box::new(|| simulate(&offsets, &ten[3..6]))),
-        ("3 sizes, one by one", Box::new(|| ten[3..6].iter().map(|c| simulate(&offsets, &[*c])).sum())),
-        ("10 sizes, one stack", Box::new(|| simulate(&offsets, &ten))),
-        ("10 sizes, one by one", Box::new(|| ten.iter().map(|c| simulate(&offsets, &[*c])).sum())),
-        ("3 lines: 64, 128, 256", Box::new(|| simulate(&offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
-        ("no cache", Box::new(|| simulate(&offsets, &["none"]))),
+        ("3 sizes, one stack", Box::new(|| simulate(offsets, &ten[3..6]))),
+        ("3 sizes, one by one", Box::new(|| one_by_one(&ten[3..6]))),
+        ("10 sizes, one stack", Box::new(|| simulate(offsets, &ten))),
+        ("10 sizes, one by one", Box::new(|| one_by_one(&ten))),
+        ("3 lines: 64, 128, 256", Box::new(|| simulate(offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
+        ("no cache", Box::new(|| simulate(offsets, &["none"]))),
     ];
+    for policy in ["fifo", "clock", "random", "plru", "min", "min-bypass"] {
+        let cache = format!("128K,full,128,{policy}");
+        let name = String::leak(cache.clone());
+        contestants.push((name, Box::new(move || simulate(offsets, &[&cache]))));
+    }
+    compare(blocks.len(), rounds, &contestants, &[(0, 1), (0, 2), (4, 5), (6, 7)]);
+    for ways in [8, 16] {
+        let name = |text: String| &*String::leak(text);
+        let mut contestants: Vec<Contestant> =
+            vec![(name(format!("yardstick: {ways} ways in order")), Box::new(move || naive_sets(blocks, LINES, ways)))];
+        for policy in ["lru", "fifo", "clock", "random", "plru", "min", "lru,hash"] {
+            let cache = format!("128K,{ways},128,{policy}");
+            contestants.push((name(cache.clone()), Box::new(move || simulate(offsets, &[&cache]))));
+        }
+        compare(blocks.len(), rounds, &contestants, &[(0, 1)]);
+    }
+}
+
+/// Prints the speed of each contestant, and as a ratio to the first. Those in pairs have to count the same.
+fn compare(accesses: usize, rounds: usize, contestants: &[Contestant], pairs: &[(usize, usize)]) {
     let mut times = vec![Vec::new(); contestants.len()];
     let mut results = vec![0; contestants.len()];
     for _ in 0..rounds {
@@ -69,8 +90,9 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
             times[i].push(start.elapsed().as_secs_f64());
         }
     }
-    assert_eq!((results[1], results[2]), (results[0], results[0]), "the list and the simulation count the same misses");
-    assert_eq!((results[5], results[7]), (results[6], results[8]), "sizes together and apart count the same");
+    for &(a, b) in pairs {
+        assert_eq!(results[a], results[b], "{} and {} count the same", contestants[a].0, contestants[b].0);
+    }
     let median = |times: &mut Vec<f64>| {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
@@ -78,7 +100,7 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     let yardstick = median(&mut times[0]);
     for ((name, _), times) in contestants.iter().zip(&mut times) {
         let time = median(times);
-        println!("  {name:32} {:7.1} M accesses/s  {:5.2}", blocks.len() as f64 / time / 1e6, yardstick / time);
+        println!("  {name:32} {:7.1} M accesses/s  {:5.2}", accesses as f64 / time / 1e6, yardstick / time);
     }
 }
 
@@ -119,6 +141,23 @@ fn naive_sink(offsets: &[u32], capacity: usize) -> u64 {
     let mut sink = Sink(List::new(offsets.iter().max().map_or(0, |&o| o as usize / 128 + 1), capacity));
     offsets.iter().for_each(|&offset| sink.access(Access::read(0, offset.into(), 20)));
     sink.0.misses
+}
+
+/// The yardstick for sets: a few blocks in order of use, the last used first.
+fn naive_sets(blocks: &[u32], capacity: usize, ways: usize) -> u64 {
+    let sets = capacity / ways;
+    let mut held = vec![NONE; capacity];
+    let mut misses = 0;
+    for &block in blocks {
+        let set = &mut held[block as usize % sets * ways..][..ways];
+        let way = set.iter().position(|&b| b == block).unwrap_or_else(|| {
+            misses += 1;
+            ways - 1
+        });
+        set.copy_within(..way, 1);
+        set[0] = block;
+    }
+    misses
 }
 
 /// A table from block to place, and a doubly linked list of places.

@@ -17,6 +17,10 @@
 //! * **Compulsory** fetches are lines touched for the first time in the whole trace, by an access that counts. A line
 //!   first touched during warm-up is nobody's compulsory fetch.
 //!
+//! * Frames of a set are **filled** in order, from the lowest on, before any line is evicted.
+//! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
+//!   It does not minimise write-backs, which are counted for what it keeps.
+//!
 //! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
 //! [`Policy`] and a line where a simulation makes its models.
 
@@ -24,6 +28,8 @@ mod config;
 mod lines;
 mod lru_stack;
 mod model;
+mod optimum;
+mod policy;
 mod records;
 mod replacement;
 mod row;
@@ -34,6 +40,7 @@ mod uncached;
 #[cfg(test)]
 mod tests;
 
-pub use config::{CacheConfig, ConfigError, Policy, Ways};
+pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
+pub use policy::{Policy, UnknownPolicy};
 pub use row::{RecordCounts, Row};
 pub use simulation::{Simulation, SimulationError};

@@ -23,10 +23,11 @@ struct Args {
     /// Traces to read, a table row for each trace and cache; `-` is standard input
     #[arg(default_value = "-")]
     traces: Vec<PathBuf>,
-    /// A cache: size, ways (`full` or a number), line size, policy (lru, none); may be repeated
-    #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways"])]
+    /// A cache: size, ways (`full` or a number), line size, policy, and `,hash` to hash the set index; or `none`; may be
+    /// repeated
+    #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways", "policies"])]
     cache: Vec<CacheConfig>,
-    /// Cache sizes, combined with each of --lines and --ways
+    /// Cache sizes, combined with each of --lines, --ways and --policies
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "128K")]
     sizes: Vec<Bytes>,
     /// Line sizes
@@ -35,6 +36,9 @@ struct Args {
     /// Ways: `full` or numbers
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "full")]
     ways: Vec<String>,
+    /// Policies: lru, fifo, clock, random, random:SEED, plru (tree), min (Belady's optimum), min-bypass
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "lru")]
+    policies: Vec<String>,
     /// How to print the result
     #[arg(long, default_value = "table")]
     format: Format,
@@ -46,7 +50,8 @@ const EXAMPLES: &str = "\
 Examples:
   pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
   pm-cachesim --sizes 32K,128K,512K --lines 64,128 scanline.pmt hilbert.pmt
-  pm-cachesim --cache 128K,full,128,lru --cache 128K,8,128,lru --format csv trace.pmt";
+  pm-cachesim --ways full,8 --policies lru,plru,min trace.pmt
+  pm-cachesim --cache 128K,8,128,lru --cache 128K,8,128,lru,hash --format csv trace.pmt";
 
 fn main() -> ExitCode {
     cli::main("pm-cachesim", run)
@@ -77,8 +82,10 @@ fn configurations(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
     for line in &args.lines {
         for size in &args.sizes {
             for ways in &args.ways {
-                let text = format!("{size},{ways},{line},lru");
-                configs.push(text.parse().map_err(|error| usage(format!("{text}: {error}")))?);
+                for policy in &args.policies {
+                    let text = format!("{size},{ways},{line},{policy}");
+                    configs.push(text.parse().map_err(|error| usage(format!("{text}: {error}")))?);
+                }
             }
         }
     }

@@ -6,13 +6,14 @@ use pm_formats::trace::{Access, Region, TraceSink};
 use thiserror::Error;
 
 use super::{
-    CacheConfig, Policy, RecordCounts, Row, Ways,
+    CacheConfig, Policy, RecordCounts, Row,
     lines::{Cursor, LineChunk, LineSpace},
     lru_stack::{LruStack, MAX_SIZES},
     model::{CacheModel, Tally},
+    optimum::{Bypass, FewWays, OneSet, Optimum},
     records::{Batch, CHUNK, Records},
-    replacement::Lru,
-    set_associative::{MAX_FRAMES, SetAssociative},
+    replacement::{Clock, Fifo, Lru, Random, Replacement, TreePlru},
+    set_associative::{MAX_FRAMES, SetAssociative, Sets},
     uncached::Uncached,
 };
 
@@ -247,21 +248,12 @@ impl Stage {
         // Fully associative LRU by lines held: one stack for all sizes.
         let mut full: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
         for &config in members {
-            match (configs[config].policy(), configs[config].ways(), configs[config].lines()) {
-                (Policy::None, ..) => uncached.push(CacheOfModel { config, tally: 0 }),
-                (Policy::Lru, Ways::Full, lines) => full.entry(lines).or_default().push(config),
-                // A single set is fully associative, and the stack is faster.
-                (Policy::Lru, Ways::N(ways), lines) if u64::from(ways.get()) == lines => {
-                    full.entry(lines).or_default().push(config);
-                }
-                (Policy::Lru, Ways::N(ways), lines) => {
-                    if lines > MAX_FRAMES {
-                        return Err(SimulationError::TooManyFrames(configs[config]));
-                    }
-                    let ways = ways.get() as usize;
-                    let model = SetAssociative::<Lru>::new(&space, regions.len(), lines as usize / ways, ways);
-                    models.push((Box::new(model), vec![CacheOfModel { config, tally: 0 }]));
-                }
+            let (cache, only) = (configs[config], CacheOfModel { config, tally: 0 });
+            match (cache.policy(), cache.sets()) {
+                (Policy::None, _) => uncached.push(only),
+                // A single set is fully associative, whatever it is called.
+                (Policy::Lru, 1) => full.entry(cache.lines()).or_default().push(config),
+                _ => models.push((in_sets(cache, &space, regions.len())?, vec![only])),
             }
         }
         if !uncached.is_empty() {
@@ -290,4 +282,43 @@ impl Stage {
             }
         }
     }
+}
+
+/// The model of one cache that is not uncached, nor fully associative under LRU.
+fn in_sets(cache: CacheConfig, space: &LineSpace, regions: usize) -> Result<Box<dyn CacheModel>, SimulationError> {
+    let sets = Sets::new(cache.sets(), cache.index());
+    let slots = space.slots().max(1);
+    let ways = match cache.sets() {
+        // One set never holds more lines than there are. No more frames than needed, then; plru needs a power of two.
+        1 => cache.lines().min(slots.next_power_of_two()),
+        sets => cache.lines() / sets,
+    };
+    if cache.sets() * ways > MAX_FRAMES {
+        return Err(SimulationError::TooManyFrames(cache));
+    }
+    let (number, ways) = (sets.number(), ways as usize);
+    let optimum = |bypass| -> Box<dyn CacheModel> {
+        let slots = space.slots() as usize;
+        match number {
+            1 => Box::new(Optimum::new(regions, bypass, OneSet::new(slots, ways, bypass))),
+            _ => Box::new(Optimum::new(regions, bypass, FewWays::new(slots, sets, ways, bypass))),
+        }
+    };
+    fn with<R: Replacement + 'static>(
+        (space, regions, sets, ways): (&LineSpace, usize, Sets, usize),
+        replacement: R,
+    ) -> Box<dyn CacheModel> {
+        Box::new(SetAssociative::new(space, regions, sets, ways, replacement))
+    }
+    let all = (space, regions, sets, ways);
+    Ok(match cache.policy() {
+        Policy::None => unreachable!("no cache is no model of sets"),
+        Policy::Lru => with(all, Lru::new(number, ways)),
+        Policy::Fifo => with(all, Fifo::new(number, ways)),
+        Policy::Clock => with(all, Clock::new(number, ways)),
+        Policy::Random { seed } => with(all, Random::new(seed, ways)),
+        Policy::TreePlru => with(all, TreePlru::new(number, ways)),
+        Policy::Min => optimum(Bypass::Never),
+        Policy::MinBypass => optimum(Bypass::Allowed),
+    })
 }

@@ -1,5 +1,8 @@
 //! Do the counts agree with what can be known otherwise?
 
+mod optimum;
+mod policies;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use pm_formats::trace::{Access, AccessKind, Coding, Region, TraceSink, lay_out};
