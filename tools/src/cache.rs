@@ -21,19 +21,26 @@
 //! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
+mod curve;
 mod lines;
 mod lru_stack;
+mod measures;
 mod model;
 mod records;
 mod replacement;
 mod row;
 mod set_associative;
 mod simulation;
+mod stack_distance;
 mod uncached;
 
+#[cfg(test)]
+mod curve_tests;
 #[cfg(test)]
 mod tests;
 
 pub use config::{CacheConfig, ConfigError, Policy, Ways};
+pub use curve::{Curve, TraceCounts};
+pub use measures::{Findings, Measures};
 pub use row::{RecordCounts, Row};
 pub use simulation::{Simulation, SimulationError};
