@@ -10,8 +10,8 @@
 
 use std::{hint::black_box, time::Instant};
 
-use pm_formats::trace::{Access, Coding, TraceSink, lay_out};
-use pm_tools::cache::{CacheConfig, Simulation};
+use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
+use pm_tools::cache::{CacheConfig, Measures, Simulation};
 
 const PHOTONS: usize = 400_000;
 const K: usize = 100;
@@ -60,13 +60,15 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
         ("10 sizes, one by one", Box::new(|| one_by_one(&ten))),
         ("3 lines: 64, 128, 256", Box::new(|| simulate(offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
         ("no cache", Box::new(|| simulate(offsets, &["none"]))),
+        ("curve: every size", Box::new(|| curves(offsets, &[128]))),
+        ("curves of lines 32, 64, 128", Box::new(|| curves(offsets, &[32, 64, 128]))),
     ];
     for policy in ["fifo", "clock", "random", "plru", "min", "min-bypass"] {
         let cache = format!("128K,full,128,{policy}");
         let name = String::leak(cache.clone());
         contestants.push((name, Box::new(move || simulate(offsets, &[&cache]))));
     }
-    compare(blocks.len(), rounds, &contestants, &[(0, 1), (0, 2), (4, 5), (6, 7)]);
+    compare(blocks.len(), rounds, &contestants, &[(0, 1), (0, 2), (4, 5), (6, 7), (0, 10)]);
     for ways in [8, 16] {
         let name = |text: String| &*String::leak(text);
         let mut contestants: Vec<Contestant> =
@@ -109,12 +111,27 @@ fn padded(node: u32) -> u32 {
     node / PER_LINE as u32 * 128 + node % PER_LINE as u32 * 20
 }
 
+/// Fetches of the yardstick's size, or rather of so many lines, from the curves of these line sizes.
+fn curves(offsets: &[u32], lines: &[u32]) -> u64 {
+    let measures = Measures { curves: lines.to_vec() };
+    let mut simulation = Simulation::measuring(&regions(), &[], &measures).unwrap();
+    simulation.search(&[0]);
+    for &offset in offsets {
+        simulation.access(Access::read(0, offset.into(), 20));
+    }
+    simulation.findings().curves.iter().map(|curve| curve.fetches(LINES as u64)).sum()
+}
+
+/// The photons, padded to lines.
+fn regions() -> Vec<Region> {
+    let size = PHOTONS.div_ceil(PER_LINE) as u64 * 128;
+    lay_out([("photons".to_owned(), size, 20, Coding::Records)])
+}
+
 /// Fetches of all caches, for reads of 20 bytes.
 fn simulate(offsets: &[u32], caches: &[&str]) -> u64 {
     let configs: Vec<CacheConfig> = caches.iter().map(|c| c.parse().unwrap()).collect();
-    let size = PHOTONS.div_ceil(PER_LINE) as u64 * 128;
-    let regions = lay_out([("photons".to_owned(), size, 20, Coding::Records)]);
-    let mut simulation = Simulation::new(&regions, &configs).unwrap();
+    let mut simulation = Simulation::new(&regions(), &configs).unwrap();
     simulation.search(&[0]);
     for &offset in offsets {
         simulation.access(Access::read(0, offset.into(), 20));

@@ -25,8 +25,10 @@
 //! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
+mod curve;
 mod lines;
 mod lru_stack;
+mod measures;
 mod model;
 mod optimum;
 mod policy;
@@ -35,12 +37,17 @@ mod replacement;
 mod row;
 mod set_associative;
 mod simulation;
+mod stack_distance;
 mod uncached;
 
+#[cfg(test)]
+mod curve_tests;
 #[cfg(test)]
 mod tests;
 
 pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
+pub use curve::{Curve, TraceCounts};
+pub use measures::{Findings, Measures};
 pub use policy::{Policy, UnknownPolicy};
 pub use row::{RecordCounts, Row};
 pub use simulation::{Simulation, SimulationError};

@@ -245,7 +245,7 @@ impl CacheConfig {
 }
 
 /// The line as its type, if it will do.
-fn check_line(line: u64) -> Result<u32, ConfigError> {
+pub(super) fn check_line(line: u64) -> Result<u32, ConfigError> {
     match u32::try_from(line) {
         Ok(line) if line.is_power_of_two() && line >= MIN_LINE => Ok(line),
         Ok(short) => {

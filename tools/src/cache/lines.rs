@@ -59,6 +59,11 @@ impl LineSpace {
         Self { shift, regions: numberings, slots }
     }
 
+    /// Line in bytes.
+    pub(super) fn line_bytes(&self) -> u32 {
+        1 << self.shift
+    }
+
     /// Number of slots.
     pub(super) fn slots(&self) -> u64 {
         self.slots

@@ -120,6 +120,6 @@ impl Row {
 }
 
 /// `a / b`; 0 / 0 is not a number.
-fn ratio(a: u64, b: u64) -> f64 {
+pub(super) fn ratio(a: u64, b: u64) -> f64 {
     a as f64 / b as f64
 }

@@ -6,7 +6,9 @@ use pm_formats::trace::{Access, Region, TraceSink};
 use thiserror::Error;
 
 use super::{
-    CacheConfig, Policy, RecordCounts, Row,
+    CacheConfig, ConfigError, Curve, Findings, Measures, Policy, RecordCounts, Row, TraceCounts,
+    config::check_line,
+    curve::CurveStack,
     lines::{Cursor, LineChunk, LineSpace},
     lru_stack::{LruStack, MAX_SIZES},
     model::{CacheModel, Tally},
@@ -46,6 +48,7 @@ pub struct Simulation {
     /// Caches of one line size share its line accesses.
     stages: Vec<Stage>,
     configs: Vec<CacheConfig>,
+    measures: Measures,
     /// Accesses not yet simulated, all of one kind of block.
     records: Records,
     warm_up: bool,
@@ -60,6 +63,7 @@ struct Stage {
     chunk: LineChunk,
     accesses: u64,
     models: Vec<(Box<dyn CacheModel>, Vec<CacheOfModel>)>,
+    curve: Option<CurveStack>,
 }
 
 /// One configuration that a model answers for.
@@ -93,6 +97,9 @@ pub enum SimulationError {
     /// A set-associative cache larger than the tables allow.
     #[error("{0} has too many lines: at most {MAX_FRAMES} in sets; full has no limit")]
     TooManyFrames(CacheConfig),
+    /// A curve of lines that will not do.
+    #[error(transparent)]
+    Line(#[from] ConfigError),
 }
 
 /// Lines of all regions that can be simulated: half of what 32 bits tell apart, so that the times of the LRU stack, one
@@ -107,13 +114,27 @@ impl Simulation {
     /// If the regions have more than 2^31 lines, or reach past the last address, or a set-associative cache has more
     /// than about 2^32 lines.
     pub fn new(regions: &[Region], configs: &[CacheConfig]) -> Result<Self, SimulationError> {
-        Self::with_chunk(regions, configs, CHUNK)
+        Self::measuring(regions, configs, &Measures::default())
+    }
+
+    /// The same, and finds out more on the way.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new), and if a line size will not do.
+    pub fn measuring(
+        regions: &[Region],
+        configs: &[CacheConfig],
+        measures: &Measures,
+    ) -> Result<Self, SimulationError> {
+        Self::with_chunk(regions, configs, measures, CHUNK)
     }
 
     /// The same with so many accesses simulated at a time.
     pub(super) fn with_chunk(
         regions: &[Region],
         configs: &[CacheConfig],
+        measures: &Measures,
         chunk: usize,
     ) -> Result<Self, SimulationError> {
         if regions.len() > 1 << 16 {
@@ -126,11 +147,19 @@ impl Simulation {
         for (i, config) in configs.iter().enumerate() {
             by_line.entry(config.line_bytes()).or_default().push(i);
         }
-        let stage = |(line_bytes, members): (u32, Vec<usize>)| Stage::new(line_bytes, &members, configs, regions);
+        for &line in &measures.curves {
+            by_line.entry(check_line(line.into())?).or_default();
+        }
+        let stage = |(line_bytes, members): (u32, Vec<usize>)| {
+            let mut stage = Stage::new(line_bytes, &members, configs, regions)?;
+            stage.curve = measures.curves.contains(&line_bytes).then(|| CurveStack::new(stage.space.slots()));
+            Ok::<_, SimulationError>(stage)
+        };
         Ok(Self {
             regions: regions.to_vec(),
             stages: by_line.into_iter().map(stage).collect::<Result<_, _>>()?,
             configs: configs.to_vec(),
+            measures: measures.clone(),
             records: Records::new(chunk),
             warm_up: false,
             queries: 0,
@@ -159,12 +188,27 @@ impl Simulation {
     ///
     /// As an access may: see [`Simulation`].
     #[must_use]
-    pub fn finish(mut self) -> Vec<Row> {
+    pub fn finish(self) -> Vec<Row> {
+        self.findings().rows
+    }
+
+    /// Ends the simulation: all that it found.
+    ///
+    /// # Panics
+    ///
+    /// As an access may: see [`Simulation`].
+    #[must_use]
+    pub fn findings(mut self) -> Findings {
         self.flush();
         let mut records = RecordCounts::default();
         self.record_counts.iter().for_each(|counts| records.add(counts));
         let mut rows = vec![None; self.configs.len()];
+        let mut curves: BTreeMap<u32, Curve> = BTreeMap::new();
         for stage in std::mem::take(&mut self.stages) {
+            let line_bytes = stage.space.line_bytes();
+            let (queries, accesses, blocks) = (self.queries, stage.accesses, self.blocks(line_bytes.into()));
+            let trace = TraceCounts { line_bytes, queries, records, accesses, blocks };
+            curves.extend(stage.curve.map(|curve| (line_bytes, curve.finish(trace))));
             for (model, caches) in stage.models {
                 let tallies = model.finish();
                 for cache in caches {
@@ -173,7 +217,10 @@ impl Simulation {
                 }
             }
         }
-        rows.into_iter().flatten().collect()
+        Findings {
+            rows: rows.into_iter().flatten().collect(),
+            curves: self.measures.curves.iter().filter_map(|line| curves.get(line).cloned()).collect(),
+        }
     }
 
     /// Bytes of all regions over bytes of a line, rounded up.
@@ -268,7 +315,7 @@ impl Stage {
                 .flat_map(|(tally, (_, configs))| configs.iter().map(move |&config| CacheOfModel { config, tally }));
             models.push((Box::new(LruStack::new(&space, regions.len(), &lines)), caches.collect()));
         }
-        Ok(Self { space, chunk: LineChunk::default(), accesses: 0, models })
+        Ok(Self { space, chunk: LineChunk::default(), accesses: 0, models, curve: None })
     }
 
     fn run(&mut self, batch: &Batch, counted: bool) {
@@ -279,6 +326,9 @@ impl Stage {
             }
             for (model, _) in &mut self.models {
                 model.run(&self.space, &self.chunk, counted);
+            }
+            if let Some(curve) = &mut self.curve {
+                curve.run(self.space.slots(), &self.chunk, counted);
             }
         }
     }
