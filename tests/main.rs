@@ -5,6 +5,7 @@
 mod cli;
 mod damage;
 mod files;
+mod guide;
 mod invariance;
 mod light;
 mod oracles;

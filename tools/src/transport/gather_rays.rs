@@ -5,6 +5,7 @@
 use super::Purpose;
 use super::cache_records::CacheRecords;
 use super::eye::{Eye, Leaf, choose};
+use super::guide::Guide;
 use super::lights::Lights;
 use super::photon_paths::patience;
 use super::reflection::{Reflection, Spread, spread_shares};
@@ -15,7 +16,7 @@ use crate::order::Leaves;
 use crate::random::Random;
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
-use pm_formats::Query;
+use pm_formats::{Photon, Query};
 
 /// How queries are made.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,8 @@ pub struct RayCounts {
     pub gather_lost: u64,
     /// Gather rays that were too short and were continued.
     pub gather_continued: u64,
+    /// Points seen whose gather rays were guided by photons.
+    pub guided: u64,
 }
 
 impl std::ops::AddAssign for RayCounts {
@@ -82,6 +85,7 @@ impl std::ops::AddAssign for RayCounts {
         self.gather += other.gather;
         self.gather_lost += other.gather_lost;
         self.gather_continued += other.gather_continued;
+        self.guided += other.guided;
     }
 }
 
@@ -92,6 +96,7 @@ pub struct GatherRays<'a> {
     eye: Eye,
     options: GatherOptions,
     strata: (u32, u32),
+    guide: Option<Guide>,
 }
 
 /// Where a gather ray ends.
@@ -111,7 +116,22 @@ impl<'a> GatherRays<'a> {
     pub fn new(scene: &'a Scene, camera: Camera, options: GatherOptions) -> Self {
         let strata = grid(options.gathers.max(1));
         let eye = Eye { camera, seed: options.seed, samples: options.samples.max(1) };
-        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata }
+        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata, guide: None }
+    }
+
+    /// The same rays, but sent more often to where photons come from, and weighing less for it: for [`Spread::Cosine`].
+    /// Where there are too few photons nothing changes; photons straight from a lamp do not count. Not for records of
+    /// cached irradiance, whose gradients are made for even strata.
+    #[must_use]
+    pub fn guided_by(self, photons: &[Photon]) -> Self {
+        let guide = Guide::new(&self.stage, photons);
+        Self { guide: Some(guide), ..self }
+    }
+
+    /// Number of photons that guide the rays.
+    #[must_use]
+    pub fn guiding_photons(&self) -> usize {
+        self.guide.as_ref().map_or(0, Guide::len)
     }
 
     /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
@@ -194,6 +214,8 @@ impl<'a> GatherRays<'a> {
         let (point, number) = (&leaf.point, leaf.number);
         let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
         self.direct_light(pixel, leaf, light);
+        let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
+        counts.guided += u64::from(guide.is_some());
         let mut strata: Vec<u32> = (0..gathers).collect();
         if self.options.strata == Strata::Shuffled {
             let key = |stratum: &u32| {
@@ -210,11 +232,12 @@ impl<'a> GatherRays<'a> {
             let u = ((stratum / columns) as f32 + random.unit()) / rows as f32;
             let v = ((stratum % columns) as f32 + random.unit()) / columns as f32;
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-            let end = reflection.sample(spread, u.min(1.0), v, random).and_then(|(direction, weight)| {
-                let share = leaf.share * weight / gathers as f32;
-                let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
-                self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
-            });
+            let end =
+                reflection.sample(spread, guide.as_ref(), u.min(1.0), v, random).and_then(|(direction, weight)| {
+                    let share = leaf.share * weight / gathers as f32;
+                    let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
+                    self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
+                });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
                 None => counts.gather_lost += 1,
@@ -260,7 +283,7 @@ impl<'a> GatherRays<'a> {
             light(end.weight * self.lights.reflected(&self.stage, &end.point, 1, for_light, brdf));
         }
         let (u, v) = (random.unit(), random.unit());
-        let (direction, weight) = reflection.sample(Spread::Cosine, u, v, random)?;
+        let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         self.follow(&end.point, direction, end.weight * weight, true, light, random)
     }
 
