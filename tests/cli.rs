@@ -9,7 +9,7 @@ use crate::support::{Folder, Outcome, SMALL, same_bytes, same_text};
 
 /// Asked wrongly: exit 2, and every line on standard error says who speaks.
 #[track_caller]
-fn asked_wrongly(outcome: &Outcome) -> &str {
+pub(crate) fn asked_wrongly(outcome: &Outcome) -> &str {
     let Outcome { line, code, stdout, stderr } = outcome;
     let program = line.split_whitespace().next().expect("a program");
     assert_eq!(*code, 2, "`{line}`\n{stderr}");

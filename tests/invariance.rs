@@ -44,6 +44,7 @@ fn threads_change_no_byte_of_a_stream() {
         "pm-queries --size 16x12 --gathers 9 --irradiance-cache 0.2",
         "pm-queries --size 16x12 --gathers 4 --samples 3 --min-gather-dist 0.1 --sampling uniform",
         "pm-queries --size 16x12 --direct-visualisation",
+        "pm-queries --size 16x12 --gathers 4 --guide map.pmp",
     ] {
         same_for_any_threads(&folder, line, <[u8]>::to_vec);
     }

@@ -7,7 +7,7 @@ mod progress;
 mod typed;
 mod usage;
 
-pub use input::{Input, named, open_bytes, open_input};
+pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
 pub use usage::{UsageError, usage};

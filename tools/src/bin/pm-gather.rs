@@ -4,10 +4,12 @@ use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
 use pm_formats::trace::TraceWriter;
 use pm_formats::{
-    Block, BlockReader, End, Header, Kind, Number, Photon, RecordReader, Section, StageReport, Step, Tally,
-    decode_irradiance, decode_weights,
+    Block, BlockReader, End, Header, Kind, Number, Photon, Section, StageReport, Step, Tally, decode_irradiance,
+    decode_weights,
 };
-use pm_tools::cli::{self, Common, Input, Output, OutputArgs, Progress, Typed, create_output, named, open_input};
+use pm_tools::cli::{
+    self, Common, Input, Output, OutputArgs, Progress, Typed, Whole, create_output, named, open_input,
+};
 use pm_tools::film::Film;
 use pm_tools::gather::{
     Answered, Answerer, Edges, EstimateOptions, Estimator, Fault, Kernel, Precomputation, PrecomputedIrradiance,
@@ -176,16 +178,12 @@ struct PhotonInput {
 
 impl PhotonInput {
     fn read(path: &Path) -> anyhow::Result<Self> {
-        let name = named(path);
-        let mut input = RecordReader::<Photon, _>::from_blocks(open_input(path)?).context(name.clone())?;
-        let mut photons = vec![];
-        while let Some((_, block)) = input.next_block().with_context(|| name.clone())? {
-            photons.extend(block);
-        }
-        let Some(Number::Count(emitted_paths)) = input.end()?.measure("emitted_paths") else {
+        let Whole { header, records: photons, end, tally } = cli::read_whole::<Photon>(path)?;
+        let Some(Number::Count(emitted_paths)) = end.measure("emitted_paths") else {
+            let name = named(path);
             bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
         };
-        Ok(Self { header: input.header().clone(), photons, emitted_paths, tally: input.tally() })
+        Ok(Self { header, photons, emitted_paths, tally })
     }
 }
 

@@ -5,6 +5,7 @@
 use super::Purpose;
 use super::cache_records::CacheRecords;
 use super::eye::{Eye, Leaf, choose};
+use super::guide::Guide;
 use super::lights::Lights;
 use super::photon_paths::patience;
 use super::reflection::{Reflection, Spread, spread_shares};
@@ -15,7 +16,7 @@ use crate::order::{Leaves, Pass};
 use crate::random::Random;
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
-use pm_formats::Query;
+use pm_formats::{Photon, Query};
 
 /// How queries are made.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,8 @@ pub struct RayCounts {
     pub gather_lost: u64,
     /// Gather rays that were too short and were continued.
     pub gather_continued: u64,
+    /// Points seen whose gather rays were guided by photons.
+    pub guided: u64,
 }
 
 impl std::ops::AddAssign for RayCounts {
@@ -82,6 +85,7 @@ impl std::ops::AddAssign for RayCounts {
         self.gather += other.gather;
         self.gather_lost += other.gather_lost;
         self.gather_continued += other.gather_continued;
+        self.guided += other.guided;
     }
 }
 
@@ -94,6 +98,7 @@ pub struct GatherRays<'a> {
     strata: (u32, u32),
     /// The strata of each bin of the hemisphere, in raster order.
     bins: Vec<Vec<u32>>,
+    guide: Option<Guide>,
 }
 
 /// Where a gather ray ends.
@@ -114,7 +119,7 @@ impl<'a> GatherRays<'a> {
         let strata = grid(options.gathers.max(1));
         let eye = Eye { camera, seed: options.seed, samples: options.samples.max(1) };
         let bins = vec![(0..options.gathers).collect()];
-        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata, bins }
+        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata, bins, guide: None }
     }
 
     /// Divides the hemisphere into bins, a grid in elevation and azimuth like the strata, for orders with a pass for each.
@@ -131,6 +136,21 @@ impl<'a> GatherRays<'a> {
             self.bins[(row * u64::from(bin_columns) + column) as usize].push(stratum);
         }
         self
+    }
+
+    /// The same rays, but sent more often to where photons come from, and weighing less for it: for [`Spread::Cosine`].
+    /// Where there are too few photons nothing changes; photons straight from a lamp do not count. Not for records of
+    /// cached irradiance, whose gradients are made for even strata.
+    #[must_use]
+    pub fn guided_by(self, photons: &[Photon]) -> Self {
+        let guide = Guide::new(&self.stage, photons);
+        Self { guide: Some(guide), ..self }
+    }
+
+    /// Number of photons that guide the rays.
+    #[must_use]
+    pub fn guiding_photons(&self) -> usize {
+        self.guide.as_ref().map_or(0, Guide::len)
     }
 
     /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
@@ -221,8 +241,10 @@ impl<'a> GatherRays<'a> {
         let GatherOptions { gathers, seed, spread, .. } = self.options;
         let (point, number) = (&leaf.point, leaf.number);
         let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
+        let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
         if bin == 0 {
             self.direct_light(pixel, leaf, light);
+            counts.guided += u64::from(guide.is_some());
         }
         let mut strata = self.bins[bin as usize].clone();
         if self.options.strata == Strata::Shuffled {
@@ -240,11 +262,12 @@ impl<'a> GatherRays<'a> {
             let u = ((stratum / columns) as f32 + random.unit()) / rows as f32;
             let v = ((stratum % columns) as f32 + random.unit()) / columns as f32;
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-            let end = reflection.sample(spread, u.min(1.0), v, random).and_then(|(direction, weight)| {
-                let share = leaf.share * weight / gathers as f32;
-                let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
-                self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
-            });
+            let end =
+                reflection.sample(spread, guide.as_ref(), u.min(1.0), v, random).and_then(|(direction, weight)| {
+                    let share = leaf.share * weight / gathers as f32;
+                    let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
+                    self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
+                });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
                 None => counts.gather_lost += 1,
@@ -290,7 +313,7 @@ impl<'a> GatherRays<'a> {
             light(end.weight * self.lights.reflected(&self.stage, &end.point, 1, for_light, brdf));
         }
         let (u, v) = (random.unit(), random.unit());
-        let (direction, weight) = reflection.sample(Spread::Cosine, u, v, random)?;
+        let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         self.follow(&end.point, direction, end.weight * weight, true, light, random)
     }
 
