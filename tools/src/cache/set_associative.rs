@@ -2,6 +2,7 @@
 
 use super::{
     lines::{LineChunk, LineSpace},
+    misses::Misses,
     model::{CacheModel, Tally},
     replacement::Replacement,
 };
@@ -83,7 +84,7 @@ impl<R: Replacement> SetAssociative<R> {
 }
 
 impl<R: Replacement> CacheModel for SetAssociative<R> {
-    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
         let sets = self.filled.len() as u64;
         for (i, &slot) in chunk.slots().iter().enumerate() {
             let tag = chunk.tag(i);
@@ -92,6 +93,7 @@ impl<R: Replacement> CacheModel for SetAssociative<R> {
                 self.replacement.hit(frame);
                 frame
             } else {
+                misses.push(i, 1);
                 let region = tag.region();
                 self.tally.fetches[region] += u64::from(counted);
                 self.tally.compulsory += u64::from(counted && place == Place::NEVER);
