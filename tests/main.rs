@@ -3,6 +3,7 @@
 //! Each file answers one question, which is its first line.
 
 mod cli;
+mod curves;
 mod damage;
 mod files;
 mod invariance;

@@ -11,7 +11,7 @@ use std::io::Write;
 use pm_formats::trace::{Access, BlockEncoder, Coding, REGION_ALIGNMENT, Region, TraceSink, TraceWriter};
 use pm_formats::{BlockMeta, Header, StageReport};
 
-use super::{CacheConfig, Findings, Measures, Policy, Simulation, SimulationError};
+use super::{CacheConfig, Findings, Measures, Policy, Row, Simulation, SimulationError};
 
 /// Simulates one cache and writes what it fetches.
 pub struct MissStream<W> {
@@ -103,12 +103,14 @@ impl<W: Write> MissStream<W> {
         Ok(())
     }
 
-    /// Writes the end block with what each stage measured. Returns the output and all that the simulation found.
+    /// Writes the end block with what each stage measured, this one included, which knows the cache's row. Returns the
+    /// output and all that the simulation found.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn finish(self, stages: Vec<StageReport>) -> pm_formats::Result<(W, Findings)> {
-        Ok((self.writer.finish(stages)?, self.simulation.findings()))
+    pub fn finish(self, stages: impl FnOnce(&Row) -> Vec<StageReport>) -> pm_formats::Result<(W, Findings)> {
+        let findings = self.simulation.findings();
+        Ok((self.writer.finish(stages(&findings.rows[0]))?, findings))
     }
 }
 

@@ -187,9 +187,9 @@ impl SampledCurve {
         Estimate { fetches: at(&self.misses, self.rate), error: STUDENT * (variance / PARTS as f64).sqrt() }
     }
 
-    /// Sizes in lines to print: the least, and then each twice the one before as long as the map does not fit.
+    /// Sizes in lines to print: the least that there is an estimate for, and each twice the one before, up to the map's.
     #[must_use]
-    pub fn readable(&self, lines_of_map: u64) -> Vec<u64> {
+    pub fn sizes(&self, lines_of_map: u64) -> Vec<u64> {
         std::iter::successors(Some(self.least()), |lines| lines.checked_mul(2))
             .take_while(|&lines| lines <= lines_of_map)
             .collect()
