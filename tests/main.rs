@@ -4,6 +4,7 @@
 
 mod charts;
 mod cli;
+mod curves;
 mod damage;
 mod files;
 mod guide;

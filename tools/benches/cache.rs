@@ -60,8 +60,10 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
         ("10 sizes, one by one", Box::new(|| one_by_one(&ten))),
         ("3 lines: 64, 128, 256", Box::new(|| simulate(offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
         ("no cache", Box::new(|| simulate(offsets, &["none"]))),
-        ("curve: every size", Box::new(|| curves(offsets, &[128]))),
-        ("curves of lines 32, 64, 128", Box::new(|| curves(offsets, &[32, 64, 128]))),
+        ("curve: every size", Box::new(|| curves(offsets, &[128], None))),
+        ("curves of lines 32, 64, 128", Box::new(|| curves(offsets, &[32, 64, 128], None))),
+        ("curve from 0.1 of the lines", Box::new(|| curves(offsets, &[128], Some(0.1)))),
+        ("curve from 0.01 of the lines", Box::new(|| curves(offsets, &[128], Some(0.01)))),
     ];
     for policy in ["fifo", "clock", "random", "plru", "min", "min-bypass"] {
         let cache = format!("128K,full,128,{policy}");
@@ -112,14 +114,17 @@ fn padded(node: u32) -> u32 {
 }
 
 /// Fetches of the yardstick's size, or rather of so many lines, from the curves of these line sizes.
-fn curves(offsets: &[u32], lines: &[u32]) -> u64 {
-    let measures = Measures { curves: lines.to_vec() };
+fn curves(offsets: &[u32], lines: &[u32], rate: Option<f64>) -> u64 {
+    let measures = Measures { curves: lines.to_vec(), sampled: rate, ..Measures::default() };
     let mut simulation = Simulation::measuring(&regions(), &[], &measures).unwrap();
     simulation.search(&[0]);
     for &offset in offsets {
         simulation.access(Access::read(0, offset.into(), 20));
     }
-    simulation.findings().curves.iter().map(|curve| curve.fetches(LINES as u64)).sum()
+    let findings = simulation.findings();
+    let sampled = findings.sampled.iter().filter_map(|curve| curve.fetches(LINES as u64));
+    let exact: u64 = findings.curves.iter().map(|curve| curve.fetches(LINES as u64)).sum();
+    exact + sampled.map(|estimate| estimate.fetches as u64).sum::<u64>()
 }
 
 /// The photons, padded to lines.

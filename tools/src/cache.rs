@@ -29,25 +29,38 @@ mod curve;
 mod lines;
 mod lru_stack;
 mod measures;
+mod miss_stream;
+mod misses;
 mod model;
 mod optimum;
 mod policy;
 mod records;
 mod replacement;
+mod results;
 mod row;
 mod set_associative;
+mod shards;
 mod simulation;
 mod stack_distance;
 mod uncached;
+mod working_set;
 
 #[cfg(test)]
 mod curve_tests;
+#[cfg(test)]
+mod measure_tests;
+#[cfg(test)]
+mod shards_tests;
 #[cfg(test)]
 mod tests;
 
 pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
 pub use curve::{Curve, TraceCounts};
-pub use measures::{Findings, Measures};
+pub use measures::{Findings, Measures, Span};
+pub use miss_stream::{MissStream, MissStreamError};
 pub use policy::{Policy, UnknownPolicy};
-pub use row::{RecordCounts, Row};
+pub use results::{ResultMemory, SECTOR_BYTES};
+pub use row::{More, RecordCounts, Row};
+pub use shards::{Estimate, LEAST_MODEL, SampledCurve};
 pub use simulation::{Simulation, SimulationError};
+pub use working_set::{Distribution, WorkingSets};

@@ -3,8 +3,11 @@
 use anyhow::Context as _;
 use clap::Parser;
 use pm_formats::trace::TraceReader;
-use pm_tools::cache::{CacheConfig, Curve, Measures, Simulation, Ways};
-use pm_tools::cli::{self, Progress, Typed, Voice, create_output, named, open_input, usage};
+use pm_formats::{End, Header, Number, StageReport};
+use pm_tools::cache::{
+    CacheConfig, Findings, LEAST_MODEL, Measures, MissStream, Policy, ResultMemory, Simulation, Span, TraceCounts, Ways,
+};
+use pm_tools::cli::{self, OutputArgs, Progress, Typed, Voice, create_output, named, open_input, usage};
 use pm_tools::report::Format;
 use pm_tools::size::Bytes;
 use std::io::Write as _;
@@ -16,6 +19,8 @@ use std::rc::Rc;
 mod columns;
 #[path = "pm-cachesim/sizes.rs"]
 mod sizes;
+#[path = "pm-cachesim/traffic.rs"]
+mod traffic;
 
 use columns::{CacheResult, CurvePoint};
 use sizes::Sizes;
@@ -52,6 +57,26 @@ struct Args {
     /// the table has powers of two, the cliff and the size that holds all; or the --sizes given
     #[arg(long, conflicts_with_all = ["cache", "ways", "policies"])]
     curve: bool,
+    /// The curve from this share of the lines (SHARDS), with its error; beside the exact one with --curve
+    #[arg(long, value_name = "R", conflicts_with_all = ["cache", "ways"], value_parser = rate, hide_short_help = true)]
+    shards: Option<f64>,
+    /// Write what the one --cache fetches as a trace, for a further cache; `-` is standard output, then no table
+    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards"])]
+    misses: Option<PathBuf>,
+    /// Which lines a record touches that does not lie in one
+    #[arg(long, default_value = "both", hide_short_help = true)]
+    span: Span,
+    /// DRAM page (row) to count page switches by, a power of two
+    #[arg(long, value_name = "SIZE", default_value = "8K", hide_short_help = true)]
+    page: Bytes,
+    /// Write-back cache of 32-byte sectors that results go through; where a batch is a tile whose pixels fit in it, they
+    /// stay on chip until the batch is over
+    #[arg(long, value_name = "SIZE", default_value = "16K", hide_short_help = true)]
+    result_cache: Bytes,
+    /// Bytes of a pixel in memory
+    #[arg(long, value_name = "BYTES", default_value = "12", hide_short_help = true,
+        value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pixel: u32,
     /// How to print the result
     #[arg(long, default_value = "table")]
     format: Format,
@@ -62,27 +87,36 @@ struct Args {
 const EXAMPLES: &str = "\
 Examples:
   pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
-  pm-cachesim --sizes 32K,128K,512K --lines 64,128 scanline.pmt hilbert.pmt
-  pm-cachesim --ways full,8 --policies lru,plru,min trace.pmt
-  pm-cachesim --cache 128K,8,128,lru --cache 128K,8,128,lru,hash --format csv trace.pmt
-  pm-cachesim --curve --lines 32,64,128 trace.pmt";
+  pm-cachesim --sizes 4K..4M --lines 64,128 scanline.pmt hilbert.pmt
+  pm-cachesim --ways full,8 --policies lru,plru,min --format csv trace.pmt
+  pm-cachesim --cache 16K,4,64,lru,hash --misses l1.pmt trace.pmt && pm-cachesim --curve l1.pmt";
 
 fn main() -> ExitCode {
     cli::main("pm-cachesim", run)
 }
 
-fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
+fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let configs = configurations(&args)?;
-    let measures = Measures { curves: if args.curve { lines(&args)? } else { vec![] } };
+    let measures = measures(&args)?;
     if args.traces.iter().filter(|trace| *trace == Path::new("-")).count() > 1 {
         return Err(usage("standard input (`-`) can be read only once"));
     }
     let mut results = Results::default();
-    for trace in &args.traces {
-        simulate(&args, trace, &configs, &measures, &mut results)?;
+    if let Some(file) = &args.misses {
+        let (&[cache], [trace]) = (&configs[..], &args.traces[..]) else {
+            return Err(usage("--misses is for one --cache and one trace"));
+        };
+        write_misses(&args, typed, trace, cache, measures, file, &mut results)?;
+        if file == Path::new("-") {
+            return Ok(());
+        }
+    } else {
+        for trace in &args.traces {
+            simulate(&args, trace, &configs, &measures, &mut results)?;
+        }
     }
     // The table is written when every trace was read to its end: a broken pipe yields none.
-    let table = match args.curve {
+    let table = match is_curve(&args) {
         true => columns::of_curves(args.format, &results.points),
         false => columns::of_caches(args.format, &results.rows),
     };
@@ -117,7 +151,7 @@ fn asked_wrongly(error: impl std::fmt::Display) -> anyhow::Error {
 }
 
 fn configurations(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
-    if !args.cache.is_empty() || args.curve {
+    if !args.cache.is_empty() || is_curve(args) {
         return Ok(args.cache.clone());
     }
     let mut sizes = sizes(args);
@@ -141,6 +175,45 @@ fn configurations(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
 /// The paper's cache.
 const DEFAULT_SIZE: Bytes = Bytes(128 << 10);
 
+/// Whether sizes of a curve are printed, and no caches one by one.
+fn is_curve(args: &Args) -> bool {
+    args.curve || args.shards.is_some()
+}
+
+/// What to find out besides the caches' own counts: what the format shows.
+fn measures(args: &Args) -> anyhow::Result<Measures> {
+    if !args.page.0.is_power_of_two() {
+        return Err(usage(format!("--page {}: a power of two is expected, such as 8K", args.page)));
+    }
+    let mut measures = Measures { span: args.span, ..Measures::default() };
+    if is_curve(args) {
+        measures.curves = lines(args)?;
+        measures.sampled = args.shards;
+        measures.exact_too = args.curve;
+    } else if args.format != Format::Table {
+        measures.split = true;
+        measures.page_bytes = Some(args.page.0);
+        measures.working_sets = true;
+        // The tile, if there is one, is the trace's.
+        measures.results =
+            Some(ResultMemory { cache_bytes: args.result_cache.0, pixel_bytes: args.pixel, tile_pixels: None });
+    }
+    Ok(measures)
+}
+
+/// The measures, given what the trace says.
+fn for_trace(measures: &Measures, header: &Header) -> Measures {
+    let results = measures.results.map(|memory| ResultMemory { tile_pixels: traffic::tile_pixels(header), ..memory });
+    Measures { results, ..measures.clone() }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1.0 => Ok(x),
+        _ => Err("a share of the lines above 0 and at most 1 is expected, such as 0.1".into()),
+    }
+}
+
 fn simulate(
     args: &Args,
     path: &Path,
@@ -150,39 +223,141 @@ fn simulate(
 ) -> anyhow::Result<()> {
     let name = named(path);
     let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
-    let mut simulation = Simulation::measuring(&trace.header().regions, configs, measures).context(name.clone())?;
+    let measures = for_trace(measures, trace.header());
+    let mut simulation = Simulation::measuring(&trace.header().regions, configs, &measures).context(name.clone())?;
     let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
     while let Some(block) = trace.replay_block(&mut simulation).with_context(|| name.clone())? {
         progress.add(u64::from(block.records));
     }
     drop(progress);
-    let order = order_of(trace.header());
-    let findings = simulation.findings();
-    results.rows.extend(findings.rows.into_iter().map(|row| CacheResult { order: order.clone(), row }));
-    for curve in findings.curves {
-        let curve = Rc::new(curve);
-        for lines in curve_sizes(args, &curve)? {
-            results.points.push(CurvePoint { order: order.clone(), curve: Rc::clone(&curve), lines });
+    results.add(args, trace.header(), trace.end()?, simulation.findings())
+}
+
+/// Simulates one cache and writes what it fetches.
+fn write_misses(
+    args: &Args,
+    typed: &Typed,
+    path: &Path,
+    cache: CacheConfig,
+    measures: Measures,
+    file: &Path,
+    results: &mut Results,
+) -> anyhow::Result<()> {
+    if cache.policy() == Policy::None {
+        return Err(usage("--misses: without a cache nothing is kept back; name one that has lines"));
+    }
+    let name = named(path);
+    let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
+    let measures = for_trace(&measures, trace.header());
+    let mut header = trace.header().clone();
+    let through = header.meaning("misses of").map_or(cache.to_string(), |first| format!("{first}, {cache}"));
+    header.set_meaning("misses of", through);
+    let mut step = typed.step_from(path, None);
+    step.arguments = misses_to_pipe(step.arguments);
+    header.history.push(step);
+    let output = OutputArgs { output: Some(file.to_owned()) }.create()?;
+    let mut stream = MissStream::new(output, header, cache, &measures).context(name.clone())?;
+    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
+    while let Some(block) = trace.replay_block(&mut stream).with_context(|| name.clone())? {
+        stream.end_block(block)?;
+        progress.add(u64::from(block.records));
+    }
+    drop(progress);
+    let end = trace.end()?;
+    let (output, findings) = stream.finish(|row| {
+        let report = StageReport::new(typed.program())
+            .with("accesses", Number::Count(row.accesses))
+            .with("fetches", Number::Count(row.fetches))
+            .with("bytes_fetched", Number::Bytes(row.bytes_fetched))
+            .with("bytes_written_back", Number::Bytes(row.bytes_written_back));
+        end.stages.iter().cloned().chain([report]).collect()
+    })?;
+    let written_back = findings.rows[0].bytes_written_back;
+    if written_back > 0 {
+        args.voice
+            .remark(format!("{written_back} bytes that the cache writes back are not in the stream of its misses"));
+    }
+    output.commit()?;
+    results.add(args, trace.header(), end, findings)
+}
+
+/// The arguments as they stand in the history: the stream does not know its name, nor how the table was printed.
+fn misses_to_pipe(typed: Vec<String>) -> Vec<String> {
+    let mut kept = vec![];
+    let mut words = typed.into_iter();
+    while let Some(word) = words.next() {
+        match word.split_once('=').map_or(word.as_str(), |(name, _)| name) {
+            name @ ("--misses" | "--format") => {
+                if !word.contains('=') {
+                    words.next();
+                }
+                if name == "--misses" {
+                    kept.extend(["--misses".to_owned(), "-".to_owned()]);
+                }
+            }
+            _ => kept.push(word),
         }
     }
-    Ok(())
+    kept
+}
+
+impl Results {
+    /// Adds what was found of a trace.
+    fn add(&mut self, args: &Args, header: &Header, end: &End, findings: Findings) -> anyhow::Result<()> {
+        let order = order_of(header);
+        let regions = Rc::new(header.regions.iter().map(|region| region.name.clone()).collect());
+        self.rows.extend(findings.rows.into_iter().map(|row| CacheResult {
+            order: order.clone(),
+            row,
+            regions: Rc::clone(&regions),
+            query_bytes: traffic::query_bytes(end),
+            result_bytes: findings.result_bytes,
+        }));
+        let mut exact = findings.curves.into_iter().map(Rc::new);
+        let mut sampled = findings.sampled.into_iter().map(Rc::new);
+        loop {
+            let (exact, sampled) = (exact.next(), sampled.next());
+            let trace = exact.as_ref().map(|curve| curve.trace).or(sampled.as_ref().map(|curve| curve.trace));
+            let Some(trace) = trace else { return Ok(()) };
+            let mut point = CurvePoint { order: order.clone(), exact, sampled, trace, lines: 0 };
+            for lines in curve_sizes(args, &point)? {
+                point.lines = lines;
+                self.points.push(point.clone());
+            }
+        }
+    }
 }
 
 /// Sizes of a curve to print, in lines.
-fn curve_sizes(args: &Args, curve: &Curve) -> anyhow::Result<Vec<u64>> {
-    let line = curve.trace.line_bytes;
-    match (sizes(args), args.format) {
-        (sizes, Format::Table) if sizes.is_empty() => Ok(curve.readable()),
-        (sizes, _) if sizes.is_empty() => Ok(curve.changes().collect()),
-        (sizes, _) => sizes
-            .into_iter()
-            .map(|size| Ok(CacheConfig::lru(size.0, Ways::Full, line).map_err(asked_wrongly)?.lines()))
-            .collect(),
+fn curve_sizes(args: &Args, curve: &CurvePoint) -> anyhow::Result<Vec<u64>> {
+    let TraceCounts { line_bytes, blocks, .. } = curve.trace;
+    let sizes = sizes(args);
+    let lines = |size: Bytes| Ok(CacheConfig::lru(size.0, Ways::Full, line_bytes).map_err(asked_wrongly)?.lines());
+    let asked: Vec<u64> = sizes.into_iter().map(lines).collect::<anyhow::Result<_>>()?;
+    if let Some(sampled) = &curve.sampled {
+        let least = sampled.least();
+        let too_small = asked.iter().find(|&&lines| lines < least);
+        let sizes = if asked.is_empty() { sampled.sizes(blocks) } else { asked.clone() };
+        if let Some(&lines) = too_small.or(sizes.is_empty().then_some(&blocks)) {
+            return Err(usage(format!(
+                "--shards {}: nothing can be said of {lines} lines, only of {least} and more, for which {LEAST_MODEL} \
+                 stand; a rate of {:.2} would do, or --curve for exact numbers",
+                sampled.rate,
+                ((LEAST_MODEL / lines.max(1) as f64) * 100.0).ceil().clamp(1.0, 100.0) / 100.0
+            )));
+        }
+        return Ok(sizes);
+    }
+    match (&curve.exact, args.format) {
+        _ if !asked.is_empty() => Ok(asked),
+        (Some(exact), Format::Table) => Ok(exact.readable()),
+        (Some(exact), _) => Ok(exact.changes().collect()),
+        (None, _) => Ok(vec![]),
     }
 }
 
 /// The order of the queries, as the stream tells it: `tiled 16x16, hilbert per batch`.
-fn order_of(header: &pm_formats::Header) -> String {
-    let parts = ["order", "deferred order"].into_iter().filter_map(|name| header.meaning(name));
-    parts.collect::<Vec<_>>().join(", ")
+fn order_of(header: &Header) -> String {
+    let parts = ["order", "deferred order"].into_iter().filter_map(|name| header.meaning(name).map(str::to_owned));
+    parts.chain(header.meaning("misses of").map(|caches| format!("misses of {caches}"))).collect::<Vec<_>>().join(", ")
 }

@@ -198,6 +198,13 @@ impl CacheConfig {
         Ok(Self { size_bytes: 0, ways: Ways::Full, line_bytes, policy: Policy::None, index: SetIndex::Plain })
     }
 
+    /// The fully associative LRU cache of the same size and line, unless this is one or no cache.
+    #[must_use]
+    pub fn full_lru_twin(&self) -> Option<Self> {
+        let twin = Self { ways: Ways::Full, policy: Policy::Lru, ..*self };
+        (self.policy != Policy::None && *self != twin).then_some(twin)
+    }
+
     /// Size in bytes; 0 where there is no cache.
     #[must_use]
     pub fn size_bytes(&self) -> u64 {

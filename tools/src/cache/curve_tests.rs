@@ -6,7 +6,7 @@ use super::tests::{Event, Random, random_events, random_regions, replay};
 use super::{CacheConfig, Curve, Findings, Measures, Simulation, Ways};
 
 fn findings(regions: &[Region], configs: &[CacheConfig], lines: &[u32], events: &[Event], chunk: usize) -> Findings {
-    let measures = Measures { curves: lines.to_vec() };
+    let measures = Measures { curves: lines.to_vec(), ..Measures::default() };
     let mut simulation = Simulation::with_chunk(regions, configs, &measures, chunk).unwrap();
     replay(events, &mut simulation);
     simulation.findings()
@@ -106,7 +106,7 @@ fn the_first_access_may_be_to_address_zero() {
 #[test]
 fn lines_that_will_not_do_are_refused() {
     let regions = lay_out([("a".to_owned(), 4096, 4, Coding::Records)]);
-    let measures = Measures { curves: vec![100] };
+    let measures = Measures { curves: vec![100], ..Measures::default() };
     let refused = Simulation::measuring(&regions, &[], &measures).err().unwrap();
     assert!(refused.to_string().contains("128 would do"), "{refused}");
 }

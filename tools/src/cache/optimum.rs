@@ -25,6 +25,7 @@ pub(super) use {few_ways::FewWays, one_set::OneSet};
 
 use super::{
     lines::{LineChunk, LineSpace},
+    misses::Misses,
     model::{CacheModel, Tally},
 };
 
@@ -90,7 +91,7 @@ impl<F: Frames> Optimum<F> {
         Self { frames, bypass, before: None, dirty: Vec::new(), tally }
     }
 
-    fn pass<const WRITES: bool>(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn pass<const WRITES: bool>(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
         for (i, &slot) in chunk.slots().iter().enumerate() {
             // Some repeats were left out of the chunk: to bypass, none may make a difference.
             let repeats = self.bypass == Bypass::Allowed && self.before == Some(slot);
@@ -99,6 +100,7 @@ impl<F: Frames> Optimum<F> {
             if !repeats {
                 let found = self.frames.touch(slot, || space.line(tag.region(), slot));
                 if found != Found::Kept {
+                    misses.push(i, 1);
                     self.tally.fetches[tag.region()] += u64::from(counted);
                     self.tally.compulsory += u64::from(counted && found == Found::New);
                     if WRITES {
@@ -115,15 +117,15 @@ impl<F: Frames> Optimum<F> {
 }
 
 impl<F: Frames> CacheModel for Optimum<F> {
-    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
         if chunk.writes() && self.dirty.is_empty() {
             self.dirty = vec![false; space.slots() as usize];
         }
         // A trace without writes, which most are, never looks at dirtiness.
         if self.dirty.is_empty() {
-            self.pass::<false>(space, chunk, counted);
+            self.pass::<false>(space, chunk, counted, misses);
         } else {
-            self.pass::<true>(space, chunk, counted);
+            self.pass::<true>(space, chunk, counted, misses);
         }
     }
 

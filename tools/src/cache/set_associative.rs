@@ -3,6 +3,7 @@
 use super::{
     config::SetIndex,
     lines::{LineChunk, LineSpace},
+    misses::Misses,
     model::{CacheModel, Tally},
     replacement::Replacement,
 };
@@ -122,7 +123,7 @@ impl<R: Replacement> SetAssociative<R> {
 }
 
 impl<R: Replacement> CacheModel for SetAssociative<R> {
-    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
         for (i, &slot) in chunk.slots().iter().enumerate() {
             let tag = chunk.tag(i);
             let place = self.places[slot as usize];
@@ -130,6 +131,7 @@ impl<R: Replacement> CacheModel for SetAssociative<R> {
                 self.replacement.hit(frame);
                 frame
             } else {
+                misses.push(i, 1);
                 let region = tag.region();
                 self.tally.fetches[region] += u64::from(counted);
                 self.tally.compulsory += u64::from(counted && place == Place::NEVER);

@@ -78,7 +78,7 @@ impl StackDistances {
     pub(super) fn touch(&mut self, slot: u32) -> Option<u32> {
         let place = self.places[slot as usize];
         if place.wrapping_sub(FIRST_FRAME) < TOP {
-            return Some(self.to_front(place - FIRST_FRAME));
+            return Some(self.move_to_front(place - FIRST_FRAME));
         }
         let distance = if place == NEVER {
             self.touched += 1;
@@ -106,7 +106,7 @@ impl StackDistances {
 
     /// Puts a frame first. Returns its old place in the order.
     #[inline]
-    fn to_front(&mut self, frame: u32) -> u32 {
+    fn move_to_front(&mut self, frame: u32) -> u32 {
         const ONES: u64 = 0x1111_1111_1111_1111;
         // The four bits that are the frame become 0; the lowest such group is the lowest to borrow.
         let differs = self.order ^ (u64::from(frame) * ONES);

@@ -50,7 +50,7 @@ fn simulate(regions: &[Region], configs: &[CacheConfig], events: &[Event], chunk
 }
 
 /// The oracle: a cache as a list of lines, most recent first, in the plainest way there is.
-fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
+pub(super) fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
     let line_bytes = u64::from(config.line_bytes());
     let sets = match config.ways() {
         Ways::Full => 1,
@@ -70,6 +70,7 @@ fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
         compulsory: 0,
         blocks: regions.iter().map(|r| r.size).sum::<u64>().div_ceil(line_bytes),
         region_fetches: vec![0; regions.len()],
+        more: Default::default(),
     };
     let (mut counted, mut write_backs) = (true, 0);
     for event in events {
