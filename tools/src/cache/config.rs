@@ -201,7 +201,7 @@ impl CacheConfig {
     /// The fully associative LRU cache of the same size and line, unless this is one or no cache.
     #[must_use]
     pub fn full_lru_twin(&self) -> Option<Self> {
-        let twin = Self { ways: Ways::Full, policy: Policy::Lru, ..*self };
+        let twin = Self { ways: Ways::Full, policy: Policy::Lru, index: SetIndex::Plain, ..*self };
         (self.policy != Policy::None && *self != twin).then_some(twin)
     }
 

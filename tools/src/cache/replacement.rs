@@ -2,21 +2,24 @@
 
 mod clock;
 mod fifo;
-mod lru;
+mod lru_order;
+mod lru_times;
 mod random;
 mod tree_plru;
 
-pub(super) use {clock::Clock, fifo::Fifo, lru::Lru, random::Random, tree_plru::TreePlru};
+pub(super) use {
+    clock::Clock, fifo::Fifo, lru_order::LruOrder, lru_times::LruTimes, random::Random, tree_plru::TreePlru,
+};
 
-/// A replacement policy over *frames*, the places for lines; set s owns frames s * ways to s * ways + ways - 1.
+/// A replacement policy, told what happens in the ways of each set.
 ///
-/// A frame is filled when a line enters an empty place of its set, the lowest first, or takes a victim's; the cache asks
-/// for a victim only where every frame of the set is filled, and fills it next.
+/// A way is filled when a line enters it while it is empty, the lowest first, or takes a victim's place; the cache asks for
+/// a victim only where every way of the set is filled, and fills it next.
 pub(super) trait Replacement {
-    /// The line in `frame` is used again.
-    fn hit(&mut self, frame: usize);
-    /// A new line enters `frame`.
-    fn fill(&mut self, frame: usize);
-    /// Which way of the full set gives up its line: from 0 to ways - 1.
+    /// The line in `way` of `set` is used again.
+    fn hit(&mut self, set: usize, way: usize);
+    /// A new line enters `way` of `set`.
+    fn fill(&mut self, set: usize, way: usize);
+    /// Which way of the full set gives up its line.
     fn victim(&mut self, set: usize) -> usize;
 }

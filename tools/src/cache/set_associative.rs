@@ -79,24 +79,33 @@ pub(super) struct SetAssociative<R> {
     filled: Vec<u32>,
     sets: Sets,
     ways: usize,
+    /// Set s owns frames s << stride to (s << stride) + ways - 1; numbers up to the next set's are no frames, so that set
+    /// and way of a frame are had without division.
+    stride: u32,
     replacement: R,
     tally: Tally,
 }
 
-/// The most lines a set-associative cache can have.
+/// The most lines a set-associative cache can have, the ways of a set rounded up to a power of two.
 pub(super) const MAX_FRAMES: u64 = u32::MAX as u64 - 1;
 
+/// Numbers of frames that so many sets and ways take up.
+pub(super) fn frames_of(sets: u64, ways: u64) -> u64 {
+    ways.checked_next_power_of_two().and_then(|ways| sets.checked_mul(ways)).unwrap_or(u64::MAX)
+}
+
 impl<R: Replacement> SetAssociative<R> {
-    /// `replacement` has the state for the same sets and ways; these make at most [`MAX_FRAMES`] frames.
+    /// `replacement` has the state for the same sets and ways; [`frames_of`] these are at most [`MAX_FRAMES`].
     pub(super) fn new(space: &LineSpace, regions: usize, sets: Sets, ways: usize, replacement: R) -> Self {
-        let frames = sets.number() * ways;
-        assert!(frames > 0 && frames as u64 <= MAX_FRAMES);
+        let frames = frames_of(sets.number() as u64, ways as u64);
+        assert!(frames <= MAX_FRAMES);
         Self {
             places: vec![Place::NEVER; space.slots() as usize],
-            frames: vec![Frame::default(); frames],
+            frames: vec![Frame::default(); frames as usize],
             filled: vec![0; sets.number()],
             sets,
             ways,
+            stride: ways.next_power_of_two().ilog2(),
             replacement,
             tally: Tally { fetches: vec![0; regions], ..Tally::default() },
         }
@@ -105,19 +114,18 @@ impl<R: Replacement> SetAssociative<R> {
     /// Brings `slot` into its set and returns its frame, clean.
     #[inline]
     fn fetch(&mut self, slot: u32, set: usize) -> usize {
-        let first = set * self.ways;
         let filled = self.filled[set] as usize;
-        let frame = if filled < self.ways {
-            self.filled[set] += 1;
-            first + filled
+        let full = filled == self.ways;
+        let way = if full { self.replacement.victim(set) } else { filled };
+        let frame = (set << self.stride) + way;
+        if full {
+            self.places[self.frames[frame].slot as usize] = Place::GONE;
         } else {
-            let victim = first + self.replacement.victim(set);
-            self.places[self.frames[victim].slot as usize] = Place::GONE;
-            victim
-        };
+            self.filled[set] += 1;
+        }
         self.frames[frame] = Frame { slot, dirty: false };
         self.places[slot as usize] = Place::in_frame(frame);
-        self.replacement.fill(frame);
+        self.replacement.fill(set, way);
         frame
     }
 }
@@ -128,7 +136,7 @@ impl<R: Replacement> CacheModel for SetAssociative<R> {
             let tag = chunk.tag(i);
             let place = self.places[slot as usize];
             let frame = if let Some(frame) = place.frame() {
-                self.replacement.hit(frame);
+                self.replacement.hit(frame >> self.stride, frame & ((1 << self.stride) - 1));
                 frame
             } else {
                 misses.push(i, 1);

@@ -15,9 +15,9 @@ use super::{
     model::{CacheModel, Tally},
     optimum::{Bypass, FewWays, OneSet, Optimum},
     records::{Batch, CHUNK, Records},
-    replacement::{Clock, Fifo, Lru, Random, Replacement, TreePlru},
+    replacement::{Clock, Fifo, LruOrder, LruTimes, Random, Replacement, TreePlru},
     results::ResultTraffic,
-    set_associative::{MAX_FRAMES, SetAssociative, Sets},
+    set_associative::{MAX_FRAMES, SetAssociative, Sets, frames_of},
     shards::Shards,
     uncached::Uncached,
     working_set::{Mark, WorkingSetCounter},
@@ -119,7 +119,9 @@ pub enum SimulationError {
     #[error("the trace has {0} regions; at most 65536 can be told apart")]
     TooManyRegions(usize),
     /// A set-associative cache larger than the tables allow.
-    #[error("{0} has too many lines: at most {MAX_FRAMES} in sets; full has no limit")]
+    #[error(
+        "{0} has too many lines: at most {MAX_FRAMES} in sets, with ways rounded up to a power of two; full has no limit"
+    )]
     TooManyFrames(CacheConfig),
     /// A curve of lines that will not do.
     #[error(transparent)]
@@ -482,7 +484,7 @@ fn in_sets(cache: CacheConfig, space: &LineSpace, regions: usize) -> Result<Box<
         1 => cache.lines().min(slots.next_power_of_two()),
         sets => cache.lines() / sets,
     };
-    if cache.sets() * ways > MAX_FRAMES {
+    if frames_of(cache.sets(), ways) > MAX_FRAMES {
         return Err(SimulationError::TooManyFrames(cache));
     }
     let (number, ways) = (sets.number(), ways as usize);
@@ -502,7 +504,8 @@ fn in_sets(cache: CacheConfig, space: &LineSpace, regions: usize) -> Result<Box<
     let all = (space, regions, sets, ways);
     Ok(match cache.policy() {
         Policy::None => unreachable!("no cache is no model of sets"),
-        Policy::Lru => with(all, Lru::new(number, ways)),
+        Policy::Lru if ways <= LruOrder::WAYS => with(all, LruOrder::new(number, ways)),
+        Policy::Lru => with(all, LruTimes::new(number, ways)),
         Policy::Fifo => with(all, Fifo::new(number, ways)),
         Policy::Clock => with(all, Clock::new(number, ways)),
         Policy::Random { seed } => with(all, Random::new(seed, ways)),

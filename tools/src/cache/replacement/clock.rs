@@ -2,7 +2,7 @@
 
 use super::Replacement;
 
-/// A hand for each set, and for each frame whether its line was used since the hand passed.
+/// A hand for each set, and for each way whether its line was used since the hand passed.
 ///
 /// A line that comes in counts as used: in the machines the policy was made for (Corbató, *A Paging Experiment with the
 /// Multics System*, 1969) the access that failed is made again. Each step of the hand undoes one use, so an access costs
@@ -21,13 +21,13 @@ impl Clock {
 
 impl Replacement for Clock {
     #[inline]
-    fn hit(&mut self, frame: usize) {
-        self.used[frame] = true;
+    fn hit(&mut self, set: usize, way: usize) {
+        self.used[set * self.ways + way] = true;
     }
 
     #[inline]
-    fn fill(&mut self, frame: usize) {
-        self.hit(frame);
+    fn fill(&mut self, set: usize, way: usize) {
+        self.hit(set, way);
     }
 
     #[inline]

@@ -16,10 +16,10 @@ impl Fifo {
 
 impl Replacement for Fifo {
     #[inline]
-    fn hit(&mut self, _: usize) {}
+    fn hit(&mut self, _: usize, _: usize) {}
 
     #[inline]
-    fn fill(&mut self, _: usize) {}
+    fn fill(&mut self, _: usize, _: usize) {}
 
     #[inline]
     fn victim(&mut self, set: usize) -> usize {

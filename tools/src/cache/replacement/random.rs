@@ -17,10 +17,10 @@ impl Random {
 
 impl Replacement for Random {
     #[inline]
-    fn hit(&mut self, _: usize) {}
+    fn hit(&mut self, _: usize, _: usize) {}
 
     #[inline]
-    fn fill(&mut self, _: usize) {}
+    fn fill(&mut self, _: usize, _: usize) {}
 
     #[inline]
     fn victim(&mut self, _: usize) -> usize {

@@ -24,10 +24,10 @@ impl TreePlru {
 
 impl Replacement for TreePlru {
     #[inline]
-    fn hit(&mut self, frame: usize) {
+    fn hit(&mut self, set: usize, way: usize) {
         let ways = 1_usize << self.levels;
-        let nodes = &mut self.upper[frame & !(ways - 1)..][..ways];
-        let mut node = ways + (frame & (ways - 1));
+        let nodes = &mut self.upper[set << self.levels..][..ways];
+        let mut node = ways + way;
         while node > 1 {
             nodes[node / 2] = node.is_multiple_of(2);
             node /= 2;
@@ -35,14 +35,14 @@ impl Replacement for TreePlru {
     }
 
     #[inline]
-    fn fill(&mut self, frame: usize) {
-        self.hit(frame);
+    fn fill(&mut self, set: usize, way: usize) {
+        self.hit(set, way);
     }
 
     #[inline]
     fn victim(&mut self, set: usize) -> usize {
         let ways = 1_usize << self.levels;
-        let nodes = &self.upper[set * ways..][..ways];
+        let nodes = &self.upper[set << self.levels..][..ways];
         let node = (0..self.levels).fold(1, |node, _| 2 * node + usize::from(nodes[node]));
         node - ways
     }

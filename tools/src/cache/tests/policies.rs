@@ -203,7 +203,7 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
 pub(super) fn random_cache(random: &mut Random, policy: Policy) -> CacheConfig {
     let line = random.pick(&[4, 16, 128, 128, 8192]);
     let tree = policy == Policy::TreePlru;
-    let ways = random.pick(if tree { &[0, 1, 2, 4, 8, 64] } else { &[0, 0, 1, 2, 3, 8, 37] });
+    let ways = random.pick(if tree { &[0, 1, 2, 4, 8, 64] } else { &[0, 1, 2, 3, 8, 16, 37] });
     let lines = match ways {
         0 if tree => random.pick(&[1, 2, 4, 16, 64, 1 << 30]),
         0 => random.pick(&[1, 2, 3, 7, 20, 64, 1 << 30]),

@@ -1,30 +1,30 @@
-//! Evicts the least recently used line of the set.
+//! Evicts the least recently used line of a set of any number of ways.
 
 use super::Replacement;
 
 /// Times of last use.
-pub(in super::super) struct Lru {
+pub(in super::super) struct LruTimes {
     last_use: Vec<u64>,
     now: u64,
     ways: usize,
 }
 
-impl Lru {
+impl LruTimes {
     pub(in super::super) fn new(sets: usize, ways: usize) -> Self {
         Self { last_use: vec![0; sets * ways], now: 0, ways }
     }
 }
 
-impl Replacement for Lru {
+impl Replacement for LruTimes {
     #[inline]
-    fn hit(&mut self, frame: usize) {
-        self.last_use[frame] = self.now;
+    fn hit(&mut self, set: usize, way: usize) {
+        self.last_use[set * self.ways + way] = self.now;
         self.now += 1;
     }
 
     #[inline]
-    fn fill(&mut self, frame: usize) {
-        self.hit(frame);
+    fn fill(&mut self, set: usize, way: usize) {
+        self.hit(set, way);
     }
 
     #[inline]
