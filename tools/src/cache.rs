@@ -17,10 +17,13 @@
 //! * **Compulsory** fetches are lines touched for the first time in the whole trace, by an access that counts. A line
 //!   first touched during warm-up is nobody's compulsory fetch.
 //!
+//! With [`Lanes`] in front, several searches are in flight at a time over the same cache.
+//!
 //! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
 //! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
+mod lanes;
 mod lines;
 mod lru_stack;
 mod model;
@@ -35,5 +38,6 @@ mod uncached;
 mod tests;
 
 pub use config::{CacheConfig, ConfigError, Policy, Ways};
+pub use lanes::{LaneSource, Lanes};
 pub use row::{RecordCounts, Row};
 pub use simulation::{Simulation, SimulationError};

@@ -5,6 +5,7 @@
 pub mod cache;
 pub mod cli;
 pub mod film;
+pub mod foreign;
 pub mod gather;
 pub mod hemisphere;
 pub mod image;
@@ -18,5 +19,6 @@ pub mod report;
 pub mod scene;
 pub mod setting;
 pub mod size;
+pub mod spool;
 pub mod transport;
 pub mod view;
