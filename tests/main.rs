@@ -5,6 +5,7 @@
 mod cli;
 mod damage;
 mod files;
+mod foreign;
 mod invariance;
 mod light;
 mod oracles;

@@ -17,7 +17,9 @@ use std::process::ExitCode;
 /// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
 /// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
 /// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
-/// json have all.
+/// json have all. Traces of other simulators are read too, plain or compressed: text formats (din, xdin, lackey, dramsim3,
+/// ramulator2, csv) tell themselves, binary ones (raw32, raw64, dinb, oracleGeneral) have to be named with --input. They
+/// have no queries, and their blocks are those of the 4 KiB pages they touch.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
@@ -77,7 +79,7 @@ Examples:
   pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
   pm-cachesim --sizes 32K,128K,512K --lines 64,128 scanline.pmt hilbert.pmt
   pm-cachesim --cache 128K,full,128,lru --cache 128K,8,128,lru --format csv trace.pmt
-  valgrind --tool=lackey --trace-mem=yes --log-fd=9 ls 9>&1 >/dev/null | pm-cachesim --sizes 32K --ways 8 --lines 64";
+  pm-cachesim --cache 32K,8,64,lru lackey.log.gz dinero.din";
 
 fn main() -> ExitCode {
     cli::main("pm-cachesim", run)

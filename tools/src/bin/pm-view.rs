@@ -17,7 +17,7 @@ use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points.
+/// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points; export traces.
 ///
 /// Without options: header, history, and, read to the end, counts, digest and what each stage measured. Two pictures,
 /// a.exr b.exr: how far b is from a. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
@@ -89,8 +89,7 @@ const EXAMPLES: &str = "\
 Examples:
   pm-queries | pm-reorder hilbert | pm-view --records=10
   pm-view --check out/map.pmp out/hilbert.pmq
-  pm-view a.exr b.exr
-  pm-view --export dramsim3 --line 64 out/hilbert.pmt | head
+  pm-view --export dramsim3 --line 64 out/hilbert.pmt -o hilbert.txt
   pm-view --import photons photons.csv --emitted 100000 -o map.pmp";
 
 fn main() -> ExitCode {
