@@ -26,8 +26,11 @@ fn open(bytes: &[u8], reading: &Reading) -> anyhow::Result<Opened> {
     identify(Box::new(Cursor::new(bytes.to_vec())), reading)
 }
 
-/// Form, and kind, address and length of each access.
-fn read(bytes: &[u8], reading: &Reading) -> Result<(Form, Vec<(AccessKind, u64, u32)>), String> {
+/// Kind, address and length of each access.
+type Accesses = Vec<(AccessKind, u64, u32)>;
+
+/// Form and accesses of an input.
+fn read(bytes: &[u8], reading: &Reading) -> Result<(Form, Accesses), String> {
     match open(bytes, reading) {
         Ok(Opened::Foreign(mut trace)) => {
             let mut heard = Heard::default();
