@@ -7,6 +7,7 @@ mod cli;
 mod curves;
 mod damage;
 mod files;
+mod foreign;
 mod guide;
 mod invariance;
 mod light;

@@ -21,11 +21,14 @@
 //! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
 //!   It does not minimise write-backs, which are counted for what it keeps.
 //!
+//! With [`Lanes`] in front, several searches are in flight at a time over the same cache.
+//!
 //! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
 //! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
 mod curve;
+mod lanes;
 mod lines;
 mod lru_stack;
 mod measures;
@@ -56,6 +59,7 @@ mod tests;
 
 pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
 pub use curve::{Curve, TraceCounts};
+pub use lanes::{LaneSource, Lanes};
 pub use measures::{Findings, Measures, Span};
 pub use miss_stream::{MissStream, MissStreamError};
 pub use policy::{Policy, UnknownPolicy};

@@ -2,27 +2,32 @@
 
 use anyhow::Context as _;
 use clap::Parser;
-use pm_formats::trace::TraceReader;
-use pm_formats::{End, Header, Number, StageReport};
-use pm_tools::cache::{
-    CacheConfig, Findings, LEAST_MODEL, Measures, MissStream, Policy, ResultMemory, Simulation, Span, TraceCounts, Ways,
-};
-use pm_tools::cli::{self, OutputArgs, Progress, Typed, Voice, create_output, named, open_input, usage};
+use pm_formats::Header;
+use pm_formats::trace::{Access, TraceReader, TraceSink};
+use pm_tools::cache::{CacheConfig, LaneSource, Lanes, Measures, ResultMemory, Simulation, Span};
+use pm_tools::cli::{self, Progress, Typed, Voice, create_output, named, open_bytes, usage};
+use pm_tools::foreign::{self, Form, Opened};
 use pm_tools::report::Format;
 use pm_tools::size::Bytes;
-use std::io::Write as _;
+use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::rc::Rc;
 
 #[path = "pm-cachesim/columns.rs"]
 mod columns;
+#[path = "pm-cachesim/foreign_args.rs"]
+mod foreign_args;
+#[path = "pm-cachesim/miss_file.rs"]
+mod miss_file;
+#[path = "pm-cachesim/results.rs"]
+mod results;
 #[path = "pm-cachesim/sizes.rs"]
 mod sizes;
 #[path = "pm-cachesim/traffic.rs"]
 mod traffic;
 
-use columns::{CacheResult, CurvePoint};
+use foreign_args::ForeignArgs;
+use results::{Results, Source};
 use sizes::Sizes;
 
 /// Simulate caches over an access trace: how much memory traffic is left?
@@ -30,7 +35,9 @@ use sizes::Sizes;
 /// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
 /// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
 /// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
-/// json have all.
+/// json have all. Traces of other simulators are read too, plain or compressed: text formats (din, xdin, lackey, dramsim3,
+/// ramulator2, csv) tell themselves, binary ones (raw32, raw64, dinb, oracleGeneral) have to be named with --input. They
+/// have no queries, and their blocks are those of the 4 KiB pages they touch.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
@@ -61,7 +68,7 @@ struct Args {
     #[arg(long, value_name = "R", conflicts_with_all = ["cache", "ways"], value_parser = rate, hide_short_help = true)]
     shards: Option<f64>,
     /// Write what the one --cache fetches as a trace, for a further cache; `-` is standard output, then no table
-    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards"])]
+    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards", "lanes", "input"])]
     misses: Option<PathBuf>,
     /// Which lines a record touches that does not lie in one
     #[arg(long, default_value = "both", hide_short_help = true)]
@@ -77,6 +84,17 @@ struct Args {
     #[arg(long, value_name = "BYTES", default_value = "12", hide_short_help = true,
         value_parser = clap::value_parser!(u32).range(1..=4096))]
     pixel: u32,
+    /// Searches in flight at a time, accesses one of each in turn; a list: a row for each number
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
+    lanes: Vec<u16>,
+    /// Which searches fly together: the next of the stream, or one of each of as many parts of a batch
+    #[arg(long, value_name = "HOW", default_value = "stream", requires = "lanes", hide_short_help = true)]
+    lanes_from: LaneSource,
+    /// Format of the traces; without it, as the content tells (ours, or a text), gzip or zstd around it
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    input: Option<Form>,
+    #[command(flatten)]
+    foreign: ForeignArgs,
     /// How to print the result
     #[arg(long, default_value = "table")]
     format: Format,
@@ -106,7 +124,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         let (&[cache], [trace]) = (&configs[..], &args.traces[..]) else {
             return Err(usage("--misses is for one --cache and one trace"));
         };
-        write_misses(&args, typed, trace, cache, measures, file, &mut results)?;
+        miss_file::write(&args, typed, trace, cache, measures, file, &mut results)?;
         if file == Path::new("-") {
             return Ok(());
         }
@@ -125,13 +143,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut output = create_output(Path::new("-"))?;
     output.write_all(&text)?;
     output.commit()
-}
-
-/// What is printed at the end.
-#[derive(Default)]
-struct Results {
-    rows: Vec<CacheResult>,
-    points: Vec<CurvePoint>,
 }
 
 /// The sizes asked for.
@@ -214,6 +225,7 @@ fn rate(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Simulates all caches on one trace.
 fn simulate(
     args: &Args,
     path: &Path,
@@ -222,142 +234,83 @@ fn simulate(
     results: &mut Results,
 ) -> anyhow::Result<()> {
     let name = named(path);
-    let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
-    let measures = for_trace(measures, trace.header());
-    let mut simulation = Simulation::measuring(&trace.header().regions, configs, &measures).context(name.clone())?;
-    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
-    while let Some(block) = trace.replay_block(&mut simulation).with_context(|| name.clone())? {
-        progress.add(u64::from(block.records));
+    let reading = args.foreign.reading(args.input);
+    let opened = open_bytes(path).and_then(|input| foreign::open(input, &reading).context(name.clone()))?;
+    match opened {
+        Opened::Ours(blocks) => {
+            let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
+            let measures = for_trace(measures, trace.header());
+            simulate_ours(args, trace, configs, &measures, results).context(name)
+        }
+        Opened::Foreign(mut trace) => {
+            if args.lanes.iter().any(|&lanes| lanes > 1) {
+                return Err(usage(format!("{name}: a foreign trace has no searches for --lanes to let fly together")));
+            }
+            if let Some(remark) = args.foreign.left_out(trace.left_out()) {
+                args.voice.remark(format!("{name}: {remark}"));
+            }
+            // Nor has it queries whose results would go anywhere.
+            let measures = Measures { results: None, ..measures.clone() };
+            let mut simulation = Simulation::measuring(trace.regions(), configs, &measures).context(name.clone())?;
+            trace.replay(&mut simulation).context(name)?;
+            let source = Source::foreign(trace.form().name(), trace.regions());
+            results.add(args, &source, 1, simulation.findings())
+        }
     }
-    drop(progress);
-    results.add(args, trace.header(), trace.end()?, simulation.findings())
 }
 
-/// Simulates one cache and writes what it fetches.
-fn write_misses(
+/// Simulates all caches on one of our traces, once for each number of lanes.
+fn simulate_ours<R: Read>(
     args: &Args,
-    typed: &Typed,
-    path: &Path,
-    cache: CacheConfig,
-    measures: Measures,
-    file: &Path,
+    mut trace: TraceReader<R>,
+    configs: &[CacheConfig],
+    measures: &Measures,
     results: &mut Results,
 ) -> anyhow::Result<()> {
-    if cache.policy() == Policy::None {
-        return Err(usage("--misses: without a cache nothing is kept back; name one that has lines"));
+    let regions = trace.header().regions.clone();
+    if args.lanes.is_empty() {
+        let mut simulation = Simulation::measuring(&regions, configs, measures)?;
+        replay(args, &mut trace, &mut simulation)?;
+        return results.add(args, &Source::ours(trace.header(), trace.end()?), 1, simulation.findings());
     }
-    let name = named(path);
-    let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
-    let measures = for_trace(&measures, trace.header());
-    let mut header = trace.header().clone();
-    let through = header.meaning("misses of").map_or(cache.to_string(), |first| format!("{first}, {cache}"));
-    header.set_meaning("misses of", through);
-    let mut step = typed.step_from(path, None);
-    step.arguments = misses_to_pipe(step.arguments);
-    header.history.push(step);
-    let output = OutputArgs { output: Some(file.to_owned()) }.create()?;
-    let mut stream = MissStream::new(output, header, cache, &measures).context(name.clone())?;
+    let lanes = |&lanes: &u16| -> anyhow::Result<_> {
+        // Where searches are mixed, an access belongs to none of them.
+        let measures = Measures { working_sets: measures.working_sets && lanes == 1, ..measures.clone() };
+        let simulation = Simulation::measuring(&regions, configs, &measures)?;
+        Lanes::new(simulation, lanes, args.lanes_from).context("temporary file")
+    };
+    let mut together = Together(args.lanes.iter().map(lanes).collect::<anyhow::Result<_>>()?);
+    replay(args, &mut trace, &mut together)?;
+    let source = Source::ours(trace.header(), trace.end()?);
+    for (&lanes, simulation) in args.lanes.iter().zip(together.0) {
+        results.add(args, &source, lanes, simulation.finish().context("temporary file")?.findings())?;
+    }
+    Ok(())
+}
+
+/// Replays a trace to its end.
+fn replay<R: Read>(args: &Args, trace: &mut TraceReader<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
     let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
-    while let Some(block) = trace.replay_block(&mut stream).with_context(|| name.clone())? {
-        stream.end_block(block)?;
+    while let Some(block) = trace.replay_block(sink)? {
         progress.add(u64::from(block.records));
     }
-    drop(progress);
-    let end = trace.end()?;
-    let (output, findings) = stream.finish(|row| {
-        let report = StageReport::new(typed.program())
-            .with("accesses", Number::Count(row.accesses))
-            .with("fetches", Number::Count(row.fetches))
-            .with("bytes_fetched", Number::Bytes(row.bytes_fetched))
-            .with("bytes_written_back", Number::Bytes(row.bytes_written_back));
-        end.stages.iter().cloned().chain([report]).collect()
-    })?;
-    let written_back = findings.rows[0].bytes_written_back;
-    if written_back > 0 {
-        args.voice
-            .remark(format!("{written_back} bytes that the cache writes back are not in the stream of its misses"));
-    }
-    output.commit()?;
-    results.add(args, trace.header(), end, findings)
+    Ok(())
 }
 
-/// The arguments as they stand in the history: the stream does not know its name, nor how the table was printed.
-fn misses_to_pipe(typed: Vec<String>) -> Vec<String> {
-    let mut kept = vec![];
-    let mut words = typed.into_iter();
-    while let Some(word) = words.next() {
-        match word.split_once('=').map_or(word.as_str(), |(name, _)| name) {
-            name @ ("--misses" | "--format") => {
-                if !word.contains('=') {
-                    words.next();
-                }
-                if name == "--misses" {
-                    kept.extend(["--misses".to_owned(), "-".to_owned()]);
-                }
-            }
-            _ => kept.push(word),
-        }
-    }
-    kept
-}
+/// The same trace through several numbers of lanes.
+struct Together(Vec<Lanes<Simulation>>);
 
-impl Results {
-    /// Adds what was found of a trace.
-    fn add(&mut self, args: &Args, header: &Header, end: &End, findings: Findings) -> anyhow::Result<()> {
-        let order = order_of(header);
-        let regions = Rc::new(header.regions.iter().map(|region| region.name.clone()).collect());
-        self.rows.extend(findings.rows.into_iter().map(|row| CacheResult {
-            order: order.clone(),
-            row,
-            regions: Rc::clone(&regions),
-            query_bytes: traffic::query_bytes(end),
-            result_bytes: findings.result_bytes,
-        }));
-        let mut exact = findings.curves.into_iter().map(Rc::new);
-        let mut sampled = findings.sampled.into_iter().map(Rc::new);
-        loop {
-            let (exact, sampled) = (exact.next(), sampled.next());
-            let trace = exact.as_ref().map(|curve| curve.trace).or(sampled.as_ref().map(|curve| curve.trace));
-            let Some(trace) = trace else { return Ok(()) };
-            let mut point = CurvePoint { order: order.clone(), exact, sampled, trace, lines: 0 };
-            for lines in curve_sizes(args, &point)? {
-                point.lines = lines;
-                self.points.push(point.clone());
-            }
-        }
+impl TraceSink for Together {
+    fn block(&mut self, batch: u64, warm_up: bool) {
+        self.0.iter_mut().for_each(|sink| sink.block(batch, warm_up));
     }
-}
-
-/// Sizes of a curve to print, in lines.
-fn curve_sizes(args: &Args, curve: &CurvePoint) -> anyhow::Result<Vec<u64>> {
-    let TraceCounts { line_bytes, blocks, .. } = curve.trace;
-    let sizes = sizes(args);
-    let lines = |size: Bytes| Ok(CacheConfig::lru(size.0, Ways::Full, line_bytes).map_err(asked_wrongly)?.lines());
-    let asked: Vec<u64> = sizes.into_iter().map(lines).collect::<anyhow::Result<_>>()?;
-    if let Some(sampled) = &curve.sampled {
-        let least = sampled.least();
-        let too_small = asked.iter().find(|&&lines| lines < least);
-        let sizes = if asked.is_empty() { sampled.sizes(blocks) } else { asked.clone() };
-        if let Some(&lines) = too_small.or(sizes.is_empty().then_some(&blocks)) {
-            return Err(usage(format!(
-                "--shards {}: nothing can be said of {lines} lines, only of {least} and more, for which {LEAST_MODEL} \
-                 stand; a rate of {:.2} would do, or --curve for exact numbers",
-                sampled.rate,
-                ((LEAST_MODEL / lines.max(1) as f64) * 100.0).ceil().clamp(1.0, 100.0) / 100.0
-            )));
-        }
-        return Ok(sizes);
+    fn search(&mut self, destinations: &[u32]) {
+        self.0.iter_mut().for_each(|sink| sink.search(destinations));
     }
-    match (&curve.exact, args.format) {
-        _ if !asked.is_empty() => Ok(asked),
-        (Some(exact), Format::Table) => Ok(exact.readable()),
-        (Some(exact), _) => Ok(exact.changes().collect()),
-        (None, _) => Ok(vec![]),
+    fn access(&mut self, access: Access) {
+        self.0.iter_mut().for_each(|sink| sink.access(access));
     }
-}
-
-/// The order of the queries, as the stream tells it: `tiled 16x16, hilbert per batch`.
-fn order_of(header: &Header) -> String {
-    let parts = ["order", "deferred order"].into_iter().filter_map(|name| header.meaning(name).map(str::to_owned));
-    parts.chain(header.meaning("misses of").map(|caches| format!("misses of {caches}"))).collect::<Vec<_>>().join(", ")
+    fn search_end(&mut self) {
+        self.0.iter_mut().for_each(TraceSink::search_end);
+    }
 }

@@ -58,6 +58,8 @@ impl<T> Columns<T> {
 pub(crate) struct CacheResult {
     /// The order of the queries.
     pub(crate) order: String,
+    /// Searches in flight at a time.
+    pub(crate) lanes: u16,
     pub(crate) row: Row,
     /// Names of the regions of the trace.
     pub(crate) regions: Rc<Vec<String>>,
@@ -99,9 +101,16 @@ fn column_name(region: &str) -> String {
 
 /// The table of simulated caches.
 pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
+    // Where all traces are read one search after the other there is nothing to say.
+    let lanes = results.iter().any(|of| of.lanes > 1);
     let mut columns = Columns(vec![])
         .text("order", true, |of: &CacheResult| of.order.clone())
         .text("cache", true, |of| of.row.config.to_string())
+        .count("lanes", lanes, |of| of.lanes.into())
+        .count("cache_bytes", false, |of| of.row.config.size_bytes())
+        .text("ways", false, |of| of.row.config.ways().to_string())
+        .count("line_bytes", false, |of| of.row.config.line_bytes().into())
+        .text("policy", false, |of| of.row.config.policy().to_string())
         .count("queries", true, |of| of.row.queries)
         .count("reads", false, |of| of.row.records.reads)
         .count("raw_bytes", false, |of| of.row.raw_bytes())
@@ -152,6 +161,8 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
 pub(crate) struct CurvePoint {
     /// The order of the queries.
     pub(crate) order: String,
+    /// Searches in flight at a time.
+    pub(crate) lanes: u16,
     pub(crate) exact: Option<Rc<Curve>>,
     pub(crate) sampled: Option<Rc<SampledCurve>>,
     pub(crate) trace: TraceCounts,
@@ -212,10 +223,12 @@ impl CurvePoint {
 
 /// The table of sizes of curves. Columns of the sample are there if there is one.
 pub(crate) fn of_curves(format: Format, points: &[CurvePoint]) -> Table {
+    let lanes = points.iter().any(|of| of.lanes > 1);
     let exact = points.iter().any(|of| of.exact.is_some());
     let mut columns = Columns(vec![])
         .text("order", true, |of: &CurvePoint| of.order.clone())
         .text("cache", true, CurvePoint::cache)
+        .count("lanes", lanes, |of| of.lanes.into())
         .count("cache_lines", true, |of| of.lines)
         .count("cache_bytes", false, CurvePoint::bytes)
         .count("queries", false, |of| of.trace.queries)
