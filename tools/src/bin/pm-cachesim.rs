@@ -107,7 +107,7 @@ Examples:
   pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
   pm-cachesim --sizes 4K..4M --lines 64,128 scanline.pmt hilbert.pmt
   pm-cachesim --ways full,8 --policies lru,plru,min --format csv trace.pmt
-  pm-cachesim --cache 16K,4,64,lru,hash --misses l1.pmt trace.pmt && pm-cachesim --curve l1.pmt";
+  pm-cachesim --cache 16K,4,64,lru,hash --misses - trace.pmt | pm-cachesim --curve";
 
 fn main() -> ExitCode {
     cli::main("pm-cachesim", run)
