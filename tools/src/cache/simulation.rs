@@ -477,40 +477,49 @@ fn follow(
 
 /// The model of one cache that is not uncached, nor fully associative under LRU.
 fn in_sets(cache: CacheConfig, space: &LineSpace, regions: usize) -> Result<Box<dyn CacheModel>, SimulationError> {
-    let sets = Sets::new(cache.sets(), cache.index());
-    let slots = space.slots().max(1);
     let ways = match cache.sets() {
         // One set never holds more lines than there are. No more frames than needed, then; plru needs a power of two.
-        1 => cache.lines().min(slots.next_power_of_two()),
+        1 => cache.lines().min(space.slots().max(1).next_power_of_two()),
         sets => cache.lines() / sets,
     };
     if frames_of(cache.sets(), ways) > MAX_FRAMES {
         return Err(SimulationError::TooManyFrames(cache));
     }
-    let (number, ways) = (sets.number(), ways as usize);
-    let optimum = |bypass| -> Box<dyn CacheModel> {
-        let slots = space.slots() as usize;
-        match number {
-            1 => Box::new(Optimum::new(regions, bypass, OneSet::new(slots, ways, bypass))),
-            _ => Box::new(Optimum::new(regions, bypass, FewWays::new(slots, sets, ways, bypass))),
-        }
-    };
-    fn with<R: Replacement + 'static>(
-        (space, regions, sets, ways): (&LineSpace, usize, Sets, usize),
-        replacement: R,
-    ) -> Box<dyn CacheModel> {
-        Box::new(SetAssociative::new(space, regions, sets, ways, replacement))
-    }
-    let all = (space, regions, sets, ways);
+    let sets = Sets::new(cache.sets(), cache.index());
+    let cache_of = CacheInSets { space, regions, sets, ways: ways as usize };
+    let (sets, ways) = (sets.number(), ways as usize);
     Ok(match cache.policy() {
         Policy::None => unreachable!("no cache is no model of sets"),
-        Policy::Lru if ways <= LruOrder::WAYS => with(all, LruOrder::new(number, ways)),
-        Policy::Lru => with(all, LruTimes::new(number, ways)),
-        Policy::Fifo => with(all, Fifo::new(number, ways)),
-        Policy::Clock => with(all, Clock::new(number, ways)),
-        Policy::Random { seed } => with(all, Random::new(seed, ways)),
-        Policy::TreePlru => with(all, TreePlru::new(number, ways)),
-        Policy::Min => optimum(Bypass::Never),
-        Policy::MinBypass => optimum(Bypass::Allowed),
+        Policy::Lru if ways <= LruOrder::WAYS => cache_of.replacing(LruOrder::new(sets, ways)),
+        Policy::Lru => cache_of.replacing(LruTimes::new(sets, ways)),
+        Policy::Fifo => cache_of.replacing(Fifo::new(sets, ways)),
+        Policy::Clock => cache_of.replacing(Clock::new(sets, ways)),
+        Policy::Random { seed } => cache_of.replacing(Random::new(seed, ways)),
+        Policy::TreePlru => cache_of.replacing(TreePlru::new(sets, ways)),
+        Policy::Min => cache_of.optimum(Bypass::Never),
+        Policy::MinBypass => cache_of.optimum(Bypass::Allowed),
     })
+}
+
+/// A cache but for its policy.
+struct CacheInSets<'a> {
+    space: &'a LineSpace,
+    regions: usize,
+    sets: Sets,
+    ways: usize,
+}
+
+impl CacheInSets<'_> {
+    fn replacing<R: Replacement + 'static>(self, replacement: R) -> Box<dyn CacheModel> {
+        Box::new(SetAssociative::new(self.space, self.regions, self.sets, self.ways, replacement))
+    }
+
+    fn optimum(self, bypass: Bypass) -> Box<dyn CacheModel> {
+        let slots = self.space.slots() as usize;
+        if self.sets.number() == 1 {
+            Box::new(Optimum::new(self.regions, bypass, OneSet::new(slots, self.ways, bypass)))
+        } else {
+            Box::new(Optimum::new(self.regions, bypass, FewWays::new(slots, self.sets, self.ways, bypass)))
+        }
+    }
 }
