@@ -18,7 +18,7 @@ fn painted(colour: impl Fn(u32, u32) -> [f64; 3]) -> Picture {
 fn reference(x: u32, y: u32) -> [f64; 3] {
     let distance = f64::from(x.abs_diff(20) + y.abs_diff(12));
     let colour = [f64::from((7 * x + 3 * y) % 64) / 64.0, f64::from((x * x + 5 * y) % 97) / 97.0, distance / 60.0];
-    if (x / 6 + y / 5) % 3 == 0 { [0.25 * colour[1], colour[0], 0.5] } else { colour }
+    if (x / 6 + y / 5).is_multiple_of(3) { [0.25 * colour[1], colour[0], 0.5] } else { colour }
 }
 
 /// Tinted, with a block of less contrast, and a speckle every 11 pixels.
@@ -28,7 +28,7 @@ fn changed(x: u32, y: u32) -> [f64; 3] {
     if (10..20).contains(&x) && (8..30).contains(&y) {
         colour = colour.map(|c| c * 0.5 + 0.25);
     }
-    if (x + SIZE[0] * y) % 11 == 0 { colour.map(|c| 1.0 - c) } else { colour }
+    if (x + SIZE[0] * y).is_multiple_of(11) { colour.map(|c| 1.0 - c) } else { colour }
 }
 
 #[test]
