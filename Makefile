@@ -140,7 +140,7 @@ BATCHES := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16
 PICTURES := $(FURNACES) $(BOXES) cached full
 EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
 
-accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: two minutes
+accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: three minutes
 	@awk -f scripts/accuracy.awk $(KNOWN) $^
 
 # The rectangles of a picture that something is known of.
@@ -244,8 +244,9 @@ scene_of = $(or $(wildcard scenes/$(base_of).obj),out/scenes/$(base_of).obj)
 EXPOSURE_furnace := --exposure -2.5
 EXPOSURE_sphere := --exposure -1.5
 LOOK_SIZE := --size 224x224
-# Seventeen lights instead of one.
+# Seventeen lights instead of one; and walls that shine at one another from as near as their edges.
 LIGHTS_columns := --light-samples 128
+LIGHTS_furnace := --light-samples 128
 
 pictures: $(LOOK)/contact-sheet.png ## All scenes rendered, in out/pictures, and a contact sheet: two minutes
 	@echo "Pictures: $(LOOK)/*.png (previews), *.exr (linear); all of them on $<"
