@@ -49,7 +49,7 @@ function size(x) { return x < 0 ? -x : x }
 function shown(x) { return x == "" ? "-" : x >= 1000 ? sprintf("%.0f", x) : sprintf("%.5g", x) }
 
 END {
-    line = "%-44s %-27s %-27s %11s  %-10s %s\n"
+    line = "%-46s %-27s %-27s %11s  %-10s %s\n"
     printf line, "scene and experiment", "known (r g b)", "found (r g b)", "difference", "tolerance", ""
     for (row = 1; row <= rows; row++) {
         experiment = known[row, "experiment"]; part = known[row, "part"]
