@@ -8,10 +8,12 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures scenes test check full-size causes bench man clean
+.PHONY: help programs run accuracy pictures charts-cache scenes test check full-size causes bench man clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+include scripts/orders.mk
 
 programs: ## Build the programs into target/release
 	$(CARGO) build --release
@@ -77,7 +79,6 @@ $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
 # ---- make full-size: the paper's own size, through pipes and without storing the streams ----------------------------
 
 FULL := scanline scanline-inf scanline-preorder tiled-hilbert hilbert hilbert-inf hilbert-preorder
-FULL_QUERIES := $(BIN)/pm-queries --size 512x512
 
 full-size: $(FULL:%=out/full/%.csv) ## The paper's size (512 x 512, 100 gathers, 450,000 photons): 20 minutes on two cores
 	@awk -v tiles=1024 -v rays=$$((512 * 512 * 100)) -f scripts/compare.awk scripts/paper.csv $^
@@ -86,10 +87,7 @@ out/full/map.pmp: | programs
 	mkdir -p out/full
 	$(LAUNCH) $(BIN)/pm-photons -n 450000 -t $(THREADS) -o $@
 
-# What makes the queries, and the options of pm-gather, by the two halves of the target's name.
-MAKE_scanline := $(FULL_QUERIES)
-MAKE_tiled-hilbert := $(FULL_QUERIES) --order tiled | $(BIN)/pm-reorder hilbert --per batch
-MAKE_hilbert := $(FULL_QUERIES) | $(BIN)/pm-reorder hilbert
+# The order and the options of pm-gather, by the two halves of the target's name.
 OPTIONS_inf := --start-radius inf
 OPTIONS_preorder := --layout preorder
 OPTIONS_reread := --reread
@@ -97,7 +95,7 @@ variant = $(filter inf preorder reread,$(lastword $(subst -, ,$*)))
 order = $(if $(variant),$(patsubst %-$(variant),%,$*),$*)
 
 out/full/%.csv: out/full/map.pmp
-	$(LAUNCH) sh -c '$(MAKE_$(order)) | $(BIN)/pm-gather $< -t $(THREADS) $(OPTIONS_$(variant)) | $(BIN)/pm-cachesim --format csv' > $@
+	$(LAUNCH) sh -c '$(call ORDER_$(order),--size 512x512,$<,) | $(BIN)/pm-gather $< -t $(THREADS) $(OPTIONS_$(variant)) | $(BIN)/pm-cachesim --format csv' > $@
 
 # ---- make causes: what the fetches of the plain order depend on, at 64 x 64 pixels and the paper's 450,000 photons --
 
@@ -280,6 +278,7 @@ $(LOOK)/%.exr $(LOOK)/%.png: $$(if $$(filter $$*,$$(SPARKLING)),$(LOOK)/$$(call 
 
 # Kept, so that a rerun makes only what is missing.
 .SECONDARY: $(foreach name,$(PICTURED),$(LOOK)/$(name).pmp $(LOOK)/$(name).caustics.pmp $(LOOK)/$(name).soft.exr $(LOOK)/$(name).exr)
+include scripts/charts.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 
@@ -302,7 +301,7 @@ bench: ## Speed, as ratios measured side by side
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder gather cachesim view scene; do \
+	for program in photons queries reorder gather cachesim chart view scene; do \
 	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
 	done
 

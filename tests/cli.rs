@@ -9,7 +9,7 @@ use crate::support::{Folder, Outcome, SMALL, same_bytes, same_text};
 
 /// Asked wrongly: exit 2, and every line on standard error says who speaks.
 #[track_caller]
-fn asked_wrongly(outcome: &Outcome) -> &str {
+pub(crate) fn asked_wrongly(outcome: &Outcome) -> &str {
     let Outcome { line, code, stdout, stderr } = outcome;
     let program = line.split_whitespace().next().expect("a program");
     assert_eq!(*code, 2, "`{line}`\n{stderr}");
@@ -36,6 +36,8 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-queries --gathers 0", "--gathers"),
         ("pm-queries --order diagonal", "scanline, tiled"),
         ("pm-queries --order tiled --tile 0", "--tile"),
+        ("pm-queries --order direction-binned --gathers 4 --bins 5", "give at most 4"),
+        ("pm-queries --order direction-binned --bins 0", "--bins"),
         ("pm-queries --eye 1,2", "1,2"),
         ("pm-queries --eye 1,2,inf", "1,2,inf"),
         ("pm-queries --base direct.jpg", "direct.jpg: an image's name ends in .exr or .png"),
@@ -49,6 +51,8 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-gather map.pmp q.pmq --max-dist nan", "a distance of 0 or more"),
         ("pm-gather map.pmp q.pmq --start-radius 0", "a radius above 0, `inf` or `auto`"),
         ("pm-gather map.pmp q.pmq --map octree", "kd, brute"),
+        ("pm-gather map.pmp q.pmq --precomputed-share 2", "--precomputed"),
+        ("pm-gather map.pmp q.pmq --precomputed --precomputed-share 0", "0"),
         ("pm-gather map.pmp q.pmq --image out", "out: an image's name ends in .exr or .png"),
         ("pm-gather map.pmp q.pmq --base direct.exr", "--image"),
         ("pm-gather map.pmp q.pmq --no-trace -o t.pmt", "--no-trace"),
@@ -60,8 +64,21 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-cachesim --ways 3 t.pmt", "would do"),
         ("pm-cachesim --ways 0 t.pmt", "0"),
         ("pm-cachesim --cache 128K,full,128,mru t.pmt", "mru"),
+        ("pm-cachesim --policies lru,mru t.pmt", "lru, fifo, clock, random, random:SEED, plru, min, min-bypass"),
+        ("pm-cachesim --ways 3 --sizes 384 --policies plru t.pmt", "2 would do"),
+        ("pm-cachesim --cache 128K,full,128,lru,hash t.pmt", "leave out"),
+        ("pm-cachesim --cache none --policies min t.pmt", "--policies"),
         ("pm-cachesim --cache 128K t.pmt", "128K,full,128,lru"),
         ("pm-cachesim --cache none --sizes 64K t.pmt", "--sizes"),
+        ("pm-cachesim --sizes 4M..4K t.pmt", "not from 4M to 4K"),
+        ("pm-cachesim --curve --cache none t.pmt", "--cache"),
+        ("pm-cachesim --curve --lines 100 t.pmt", "128 would do"),
+        ("pm-cachesim --shards 0 t.pmt", "above 0"),
+        ("pm-cachesim --shards nan t.pmt", "above 0"),
+        ("pm-cachesim --misses x.pmt t.pmt", "--cache"),
+        ("pm-cachesim --cache none --misses x.pmt t.pmt", "name one that has lines"),
+        ("pm-cachesim --cache none --cache none --misses x.pmt t.pmt", "one --cache"),
+        ("pm-cachesim --page 3K t.pmt", "a power of two"),
         ("pm-cachesim --format xml t.pmt", "table, csv, json"),
         ("pm-view --check --history map.pmp", "--history"),
         ("pm-view --records=x map.pmp", "x"),

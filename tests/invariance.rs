@@ -6,13 +6,16 @@ use pm_formats::{Query, Tally};
 use pm_tools::image::Picture;
 
 /// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.
-const GENERATIVE: [&str; 6] = [
+const GENERATIVE: [&str; 9] = [
     "--order scanline",
     "--order tiled --tile 1",
     "--order tiled --tile 3",
     "--order tiled",
     "--order tiled --tile 99",
     "--strata shuffled",
+    "--order direction-binned --tile 3",
+    "--order direction-binned --tile 99 --bins 3 --strata shuffled",
+    "--order direction-binned --tile 1 --bins 2",
 ];
 
 /// Orders that `pm-reorder` brings queries into.
@@ -41,6 +44,7 @@ fn threads_change_no_byte_of_a_stream() {
         "pm-queries --size 16x12 --gathers 9 --irradiance-cache 0.2",
         "pm-queries --size 16x12 --gathers 4 --samples 3 --min-gather-dist 0.1 --sampling uniform",
         "pm-queries --size 16x12 --direct-visualisation",
+        "pm-queries --size 16x12 --gathers 4 --guide map.pmp",
     ] {
         same_for_any_threads(&folder, line, <[u8]>::to_vec);
     }
@@ -103,7 +107,10 @@ fn orders_are_orders() {
         records::<Query>(&folder.read(name)).iter().map(|query| (query.pixel, query.sample)).collect()
     };
     // Without this, doing nothing at all would pass for every order.
-    let names = ["q0.pmq", "q2.pmq", "q5.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq", "q0-4.pmq", "q2-1.pmq"];
+    let names = [
+        "q0.pmq", "q2.pmq", "q5.pmq", "q6.pmq", "q7.pmq", "q8.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq",
+        "q0-4.pmq", "q2-1.pmq",
+    ];
     let sequences = names.map(sequence);
     for (i, name) in names.iter().enumerate() {
         for (j, other) in names.iter().enumerate().skip(i + 1) {
@@ -223,6 +230,7 @@ fn cached_irradiance_is_the_same_for_every_order_and_thread_count() {
     for (order, reorder, threads) in [
         ("", "", 1),
         ("--order tiled --tile 3", "", 3),
+        ("--order direction-binned --tile 5 --bins 4", "", 2),
         ("", "| pm-reorder hilbert", 2),
         ("--order tiled", "| pm-reorder random --per batch", 1),
     ] {

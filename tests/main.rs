@@ -3,16 +3,24 @@
 //! Each file answers one question, which is its first line.
 
 mod accuracy;
+mod charts;
 mod cli;
+mod curves;
 mod damage;
 mod files;
+mod foreign;
+mod guide;
 mod invariance;
 mod light;
 mod oracles;
+mod pictures;
 mod pipes;
+mod precomputed;
 mod readme;
 mod scenes;
+mod slopes;
 mod streams;
 mod support;
 mod tidy;
+mod variants;
 mod view;

@@ -83,34 +83,55 @@ fn is(row: &HashMap<String, f64>, column: &str, expected: u64) {
     assert_eq!(row[column], expected as f64, "{column}");
 }
 
+/// The table for `t.pmt`, in which all `records` of 20 bytes may be read, against a list of the lines touched.
+fn assert_lru_is_that_of_a_plain_list(folder: &Folder, what: &str, records: u64) {
+    let (reads, queries) = reads(folder);
+    for line in [32, 128, 512] {
+        let touched = lines(&reads, line);
+        assert!(touched.len() > reads.len(), "records that span two lines are part of the test");
+        let distinct = touched.iter().collect::<BTreeSet<_>>().len() as u64;
+        let rows = simulated(folder, &format!("--lines {line} --sizes 2K,4K,16K,32K,1M --ways full,1,2,4"));
+        assert_eq!(rows.len(), 5 * 4, "{:?}", rows.keys());
+        for (name, row) in &rows {
+            let parts: Vec<&str> = name.split(',').collect();
+            let kilobytes = parts[0].strip_suffix('K').map_or(1 << 10, |number| number.parse().unwrap());
+            let places = (kilobytes * 1024 / line) as usize;
+            let ways = parts[1].parse().unwrap_or(places);
+            assert_eq!(row["fetches"], naive_lru(&touched, places / ways, ways) as f64, "{what}: {name}");
+            is(row, "queries", queries);
+            is(row, "reads", reads.len() as u64);
+            is(row, "raw_bytes", reads.len() as u64 * 20);
+            is(row, "accesses", touched.len() as u64);
+            is(row, "compulsory", distinct);
+            is(row, "bytes_fetched", row["fetches"] as u64 * line);
+            is(row, "bytes_written_back", 0);
+            is(row, "blocks", (records * 20).div_ceil(line));
+        }
+    }
+}
+
 #[test]
 fn lru_is_that_of_a_plain_list() {
     for order in [None, Some("hilbert"), Some("random --per batch")] {
         let folder = trace(order);
-        let (reads, queries) = reads(&folder);
         let map = records::<Photon>(&folder.read("map.pmp")).len() as u64;
-        for line in [32, 128, 512] {
-            let touched = lines(&reads, line);
-            assert!(touched.len() > reads.len(), "records that span two lines are part of the test");
-            let distinct = touched.iter().collect::<BTreeSet<_>>().len() as u64;
-            let rows = simulated(&folder, &format!("--lines {line} --sizes 2K,4K,16K,32K,1M --ways full,1,2,4"));
-            assert_eq!(rows.len(), 5 * 4, "{:?}", rows.keys());
-            for (name, row) in &rows {
-                let parts: Vec<&str> = name.split(',').collect();
-                let kilobytes = parts[0].strip_suffix('K').map_or(1 << 10, |number| number.parse().unwrap());
-                let places = (kilobytes * 1024 / line) as usize;
-                let ways = parts[1].parse().unwrap_or(places);
-                assert_eq!(row["fetches"], naive_lru(&touched, places / ways, ways) as f64, "{order:?}: {name}");
-                is(row, "queries", queries);
-                is(row, "reads", reads.len() as u64);
-                is(row, "raw_bytes", reads.len() as u64 * 20);
-                is(row, "accesses", touched.len() as u64);
-                is(row, "compulsory", distinct);
-                is(row, "bytes_fetched", row["fetches"] as u64 * line);
-                is(row, "bytes_written_back", 0);
-                is(row, "blocks", (map * 20).div_ceil(line));
-            }
-        }
+        assert_lru_is_that_of_a_plain_list(&folder, &format!("{order:?}"), map);
+    }
+}
+
+#[test]
+fn lru_is_that_of_a_plain_list_where_irradiance_is_precomputed() {
+    let folder = Folder::with_streams();
+    let photons = records::<Photon>(&folder.read("map.pmp")).len() as u64;
+    let reads_per_query = |options: &str| {
+        folder.run(&format!("pm-gather map.pmp q.pmq -k 30 {options} -o t.pmt")).ok();
+        simulated(&folder, "--sizes 4K --lines 128").remove("4K,full,128,lru").expect("a row")["reads_per_query"]
+    };
+    let full = reads_per_query("");
+    for share in [1, 4] {
+        let own = reads_per_query(&format!("--precomputed --precomputed-share {share}"));
+        assert!(own < full / 3.0, "{own} reads a query, {full} without");
+        assert_lru_is_that_of_a_plain_list(&folder, &format!("1 of {share}"), photons.div_ceil(share));
     }
 }
 
@@ -134,6 +155,27 @@ fn a_larger_cache_never_fetches_more() {
         let (smallest, largest) = (by_size[0], by_size[by_size.len() - 1]);
         assert_eq!(largest.1, largest.2, "what holds the map fetches each line once");
         assert!(smallest.1 > 4.0 * largest.1, "{by_size:?}");
+    }
+}
+
+#[test]
+fn no_policy_fetches_less_than_the_optimum() {
+    for order in [None, Some("hilbert")] {
+        let folder = trace(order);
+        for ways in ["full", "8", "2"] {
+            let policies = "lru,fifo,clock,random,random:1,plru,min,min-bypass";
+            let rows = simulated(&folder, &format!("--sizes 8K --ways {ways} --policies {policies}"));
+            assert_eq!(rows.len(), 8, "{:?}", rows.keys());
+            let fetches = |policy: &str| rows[&format!("8K,{ways},128,{policy}")]["fetches"];
+            for policy in policies.split(',') {
+                let least = if policy == "min-bypass" { policy } else { "min" };
+                assert!(fetches(least) <= fetches(policy), "{order:?}: {policy}, {ways} ways");
+            }
+            assert!(
+                fetches("min-bypass") <= fetches("min") && fetches("min") < fetches("lru"),
+                "{order:?}, {ways} ways"
+            );
+        }
     }
 }
 

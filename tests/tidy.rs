@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 /// Who may know whom, among the modules of `tools`: a new module needs a line here, a new acquaintance a word, and both a
 /// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
 const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("cache", &["size", "formats"]), // never photon_map: it sees accesses only
+    ("cache", &["size", "random", "spool", "formats"]), // never photon_map: it sees accesses only
+    ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),
-    ("gather", &["photon_map", "irradiance", "film", "formats"]),
+    ("foreign", &["cli", "spool", "formats"]), // never cache: it says what was accessed, not what that costs
+    ("gather", &["photon_map", "irradiance", "film", "parallel", "random", "formats"]),
     ("hemisphere", &[]),
     ("image", &["cli"]),
     ("irradiance", &["hemisphere", "film", "formats"]),
@@ -23,6 +25,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("setting", &["cli", "scene", "formats"]),
     ("size", &[]),
+    ("spool", &["formats"]),
     ("transport", &["scene", "irradiance", "hemisphere", "order", "random", "formats"]),
     ("view", &["cli", "image", "random", "report", "formats"]),
 ];

@@ -106,19 +106,20 @@ pub fn encode_weights(weights: &[PixelWeight]) -> Result<(Block, Tally)> {
     encode(Section::PixelWeights, bytemuck::cast_slice(weights), weights.len())
 }
 
-/// The irradiance records of a block; `None` if it does not hold what it says.
+/// The irradiance records of a block, and what they add to the stream's digest; `None` if it does not hold what it says.
 #[must_use]
-pub fn decode_irradiance(block: &Block) -> Option<Vec<IrradianceRecord>> {
+pub fn decode_irradiance(block: &Block) -> Option<(Vec<IrradianceRecord>, Tally)> {
     let (words, width) = decode(block)?;
-    words.chunks_exact(width.max(1)).map(IrradianceRecord::from_words).collect()
+    let records: Option<_> = words.chunks_exact(width.max(1)).map(IrradianceRecord::from_words).collect();
+    Some((records?, tally(block.section, &words, width)))
 }
 
-/// The pixel weights of a block; `None` if it does not hold what it says.
+/// The pixel weights of a block, and what they add to the stream's digest; `None` if it does not hold what it says.
 #[must_use]
-pub fn decode_weights(block: &Block) -> Option<Vec<PixelWeight>> {
+pub fn decode_weights(block: &Block) -> Option<(Vec<PixelWeight>, Tally)> {
     let (words, width) = decode(block)?;
     let fits = width == size_of::<PixelWeight>() / 4 || words.is_empty();
-    fits.then(|| bytemuck::cast_slice::<_, PixelWeight>(&words).to_vec())
+    fits.then(|| (bytemuck::cast_slice::<_, PixelWeight>(&words).to_vec(), tally(block.section, &words, width)))
 }
 
 /// What a block beside the records adds to the stream's digest; `None` if it does not hold what it says.
@@ -183,7 +184,7 @@ mod tests {
     fn tables_come_back_and_are_told_apart() {
         let records: Vec<_> = (0..5).map(record).collect();
         let (block, tally) = encode_irradiance(&records).unwrap();
-        assert_eq!(decode_irradiance(&block), Some(records.clone()));
+        assert_eq!(decode_irradiance(&block), Some((records.clone(), tally)));
         assert_eq!(tally_beside(&block), Some(tally));
         assert_eq!(tally.records, 0);
         let weight = PixelWeight {
@@ -194,7 +195,8 @@ mod tests {
             normal_change: [0.0; 3],
         };
         let (block, weights_tally) = encode_weights(&[weight, weight]).unwrap();
-        assert_eq!(decode_weights(&block), Some(vec![weight, weight]));
+        assert_eq!(decode_weights(&block), Some((vec![weight, weight], weights_tally)));
+        assert_eq!(tally_beside(&block), Some(weights_tally));
         assert_ne!(tally.digest, weights_tally.digest);
         assert_eq!(decode_irradiance(&block), None);
         assert_eq!(decode_weights(&encode_irradiance(&records).unwrap().0), None);

@@ -1,17 +1,22 @@
 //! How fast are the simulated caches, as ratios to the plainest loop that does the job?
 //!
 //! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to place, and a
-//! doubly linked list of places. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
-//! interleaved and medians compared, so that a busy machine slows both alike. Both must count the same.
+//! doubly linked list of places. For sets, it is the blocks of each set in order of use, all of them searched. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
+//! interleaved and medians of processor time compared, so that a busy machine slows both alike. Both must count the same.
 //!
 //! The trace is that of k-nearest-neighbour searches in an implicit kd-tree, for queries in no order and in an order that
 //! goes through space cell by cell. `cargo bench -p pm-tools --bench cache [-- QUERIES [ROUNDS]]`.
 #![allow(clippy::print_stdout)]
 
-use std::{hint::black_box, time::Instant};
+use std::{
+    fs,
+    hint::black_box,
+    sync::LazyLock,
+    time::{Duration, Instant},
+};
 
-use pm_formats::trace::{Access, Coding, TraceSink, lay_out};
-use pm_tools::cache::{CacheConfig, Simulation};
+use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
+use pm_tools::cache::{CacheConfig, Measures, Simulation};
 
 const PHOTONS: usize = 400_000;
 const K: usize = 100;
@@ -44,33 +49,59 @@ type Contestant<'a> = (&'a str, Box<dyn Fn() -> u64 + 'a>);
 fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     let offsets: Vec<u32> = nodes.iter().map(|&node| padded(node)).collect();
     let packed: Vec<u32> = nodes.iter().map(|&node| node * 20).collect();
+    let offsets = &offsets;
     let one = ["128K,full,128,lru"];
     let ten: Vec<String> = (0..10).map(|i| format!("{},full,128,lru", 8192_u64 << i)).collect();
     let ten: Vec<&str> = ten.iter().map(String::as_str).collect();
-    let contestants: Vec<Contestant> = vec![
+    let one_by_one = |caches: &[&str]| caches.iter().map(|c| simulate(offsets, &[*c])).sum();
+    let mut contestants: Vec<Contestant> = vec![
         ("yardstick: table and list", Box::new(|| naive(blocks, LINES))),
-        ("the same list fed accesses", Box::new(|| naive_sink(&offsets, LINES))),
-        ("128K,full,128,lru", Box::new(|| simulate(&offsets, &one))),
+        ("the same list fed accesses", Box::new(|| naive_sink(offsets, LINES))),
+        ("128K,full,128,lru", Box::new(|| simulate(offsets, &one))),
         ("... packed, 1 in 8 spans lines", Box::new(|| simulate(&packed, &one))),
-        ("128K,8,128,lru", Box::new(|| simulate(&offsets, &["128K,8,128,lru"]))),
-        ("3 sizes, one stack", Box::new(|| simulate(&offsets, &ten[3..6]))),
-        ("3 sizes, one by one", Box::new(|| ten[3..6].iter().map(|c| simulate(&offsets, &[*c])).sum())),
-        ("10 sizes, one stack", Box::new(|| simulate(&offsets, &ten))),
-        ("10 sizes, one by one", Box::new(|| ten.iter().map(|c| simulate(&offsets, &[*c])).sum())),
-        ("3 lines: 64, 128, 256", Box::new(|| simulate(&offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
-        ("no cache", Box::new(|| simulate(&offsets, &["none"]))),
+        ("3 sizes, one stack", Box::new(|| simulate(offsets, &ten[3..6]))),
+        ("3 sizes, one by one", Box::new(|| one_by_one(&ten[3..6]))),
+        ("10 sizes, one stack", Box::new(|| simulate(offsets, &ten))),
+        ("10 sizes, one by one", Box::new(|| one_by_one(&ten))),
+        ("3 lines: 64, 128, 256", Box::new(|| simulate(offsets, &["128K,full,64,lru", one[0], "128K,full,256,lru"]))),
+        ("no cache", Box::new(|| simulate(offsets, &["none"]))),
+        ("curve: every size", Box::new(|| curves(offsets, &[128], None))),
+        ("curves of lines 32, 64, 128", Box::new(|| curves(offsets, &[32, 64, 128], None))),
+        ("curve from 0.1 of the lines", Box::new(|| curves(offsets, &[128], Some(0.1)))),
+        ("curve from 0.01 of the lines", Box::new(|| curves(offsets, &[128], Some(0.01)))),
     ];
+    for policy in ["fifo", "clock", "random", "plru", "min", "min-bypass"] {
+        let cache = format!("128K,full,128,{policy}");
+        let name = String::leak(cache.clone());
+        contestants.push((name, Box::new(move || simulate(offsets, &[&cache]))));
+    }
+    compare(blocks.len(), rounds, &contestants, &[(0, 1), (0, 2), (4, 5), (6, 7), (0, 10)]);
+    for ways in [8, 16] {
+        let name = |text: String| &*String::leak(text);
+        let mut contestants: Vec<Contestant> =
+            vec![(name(format!("yardstick: {ways} ways in order")), Box::new(move || naive_sets(blocks, LINES, ways)))];
+        for policy in ["lru", "fifo", "clock", "random", "plru", "min", "lru,hash"] {
+            let cache = format!("128K,{ways},128,{policy}");
+            contestants.push((name(cache.clone()), Box::new(move || simulate(offsets, &[&cache]))));
+        }
+        compare(blocks.len(), rounds, &contestants, &[(0, 1)]);
+    }
+}
+
+/// Prints the speed of each contestant, and as a ratio to the first. Those in pairs have to count the same.
+fn compare(accesses: usize, rounds: usize, contestants: &[Contestant], pairs: &[(usize, usize)]) {
     let mut times = vec![Vec::new(); contestants.len()];
     let mut results = vec![0; contestants.len()];
     for _ in 0..rounds {
         for (i, (_, run)) in contestants.iter().enumerate() {
-            let start = Instant::now();
+            let start = cpu_time();
             results[i] = black_box(run());
-            times[i].push(start.elapsed().as_secs_f64());
+            times[i].push((cpu_time() - start).as_secs_f64());
         }
     }
-    assert_eq!((results[1], results[2]), (results[0], results[0]), "the list and the simulation count the same misses");
-    assert_eq!((results[5], results[7]), (results[6], results[8]), "sizes together and apart count the same");
+    for &(a, b) in pairs {
+        assert_eq!(results[a], results[b], "{} and {} count the same", contestants[a].0, contestants[b].0);
+    }
     let median = |times: &mut Vec<f64>| {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
@@ -78,8 +109,17 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
     let yardstick = median(&mut times[0]);
     for ((name, _), times) in contestants.iter().zip(&mut times) {
         let time = median(times);
-        println!("  {name:32} {:7.1} M accesses/s  {:5.2}", blocks.len() as f64 / time / 1e6, yardstick / time);
+        println!("  {name:32} {:7.1} M accesses/s  {:5.2}", accesses as f64 / time / 1e6, yardstick / time);
     }
+}
+
+/// How long this thread has run. Where the system does not tell, how long ago the first call was.
+fn cpu_time() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    // Linux: nanoseconds on a processor, nanoseconds waiting for one, number of turns.
+    let times = fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = times.and_then(|times| times.split(' ').next()?.parse().ok());
+    nanoseconds.map_or_else(|| START.elapsed(), Duration::from_nanos)
 }
 
 /// Byte offset of a node whose record does not cross a line.
@@ -87,12 +127,30 @@ fn padded(node: u32) -> u32 {
     node / PER_LINE as u32 * 128 + node % PER_LINE as u32 * 20
 }
 
+/// Fetches of the yardstick's size, or rather of so many lines, from the curves of these line sizes.
+fn curves(offsets: &[u32], lines: &[u32], rate: Option<f64>) -> u64 {
+    let measures = Measures { curves: lines.to_vec(), sampled: rate, ..Measures::default() };
+    let mut simulation = Simulation::measuring(&regions(), &[], &measures).unwrap();
+    simulation.search(&[0]);
+    for &offset in offsets {
+        simulation.access(Access::read(0, offset.into(), 20));
+    }
+    let findings = simulation.findings();
+    let sampled = findings.sampled.iter().filter_map(|curve| curve.fetches(LINES as u64));
+    let exact: u64 = findings.curves.iter().map(|curve| curve.fetches(LINES as u64)).sum();
+    exact + sampled.map(|estimate| estimate.fetches as u64).sum::<u64>()
+}
+
+/// The photons, padded to lines.
+fn regions() -> Vec<Region> {
+    let size = PHOTONS.div_ceil(PER_LINE) as u64 * 128;
+    lay_out([("photons".to_owned(), size, 20, Coding::Records)])
+}
+
 /// Fetches of all caches, for reads of 20 bytes.
 fn simulate(offsets: &[u32], caches: &[&str]) -> u64 {
     let configs: Vec<CacheConfig> = caches.iter().map(|c| c.parse().unwrap()).collect();
-    let size = PHOTONS.div_ceil(PER_LINE) as u64 * 128;
-    let regions = lay_out([("photons".to_owned(), size, 20, Coding::Records)]);
-    let mut simulation = Simulation::new(&regions, &configs).unwrap();
+    let mut simulation = Simulation::new(&regions(), &configs).unwrap();
     simulation.search(&[0]);
     for &offset in offsets {
         simulation.access(Access::read(0, offset.into(), 20));
@@ -119,6 +177,23 @@ fn naive_sink(offsets: &[u32], capacity: usize) -> u64 {
     let mut sink = Sink(List::new(offsets.iter().max().map_or(0, |&o| o as usize / 128 + 1), capacity));
     offsets.iter().for_each(|&offset| sink.access(Access::read(0, offset.into(), 20)));
     sink.0.misses
+}
+
+/// The yardstick for sets: a few blocks in order of use, the last used first.
+fn naive_sets(blocks: &[u32], capacity: usize, ways: usize) -> u64 {
+    let sets = capacity / ways;
+    let mut held = vec![NONE; capacity];
+    let mut misses = 0;
+    for &block in blocks {
+        let set = &mut held[block as usize % sets * ways..][..ways];
+        let way = set.iter().position(|&b| b == block).unwrap_or_else(|| {
+            misses += 1;
+            ways - 1
+        });
+        set.copy_within(..way, 1);
+        set[0] = block;
+    }
+    misses
 }
 
 /// A table from block to place, and a doubly linked list of places.

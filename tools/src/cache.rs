@@ -17,23 +17,54 @@
 //! * **Compulsory** fetches are lines touched for the first time in the whole trace, by an access that counts. A line
 //!   first touched during warm-up is nobody's compulsory fetch.
 //!
+//! * Frames of a set are **filled** in order, from the lowest on, before any line is evicted.
+//! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
+//!   It does not minimise write-backs, which are counted for what it keeps.
+//!
+//! With [`Lanes`] in front, several searches are in flight at a time over the same cache.
+//!
 //! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
 //! [`Policy`] and a line where a simulation makes its models.
 
 mod config;
+mod curve;
+mod lanes;
 mod lines;
 mod lru_stack;
+mod measures;
+mod miss_stream;
+mod misses;
 mod model;
+mod optimum;
+mod policy;
 mod records;
 mod replacement;
+mod results;
 mod row;
 mod set_associative;
+mod shards;
 mod simulation;
+mod stack_distance;
 mod uncached;
+mod working_set;
 
+#[cfg(test)]
+mod curve_tests;
+#[cfg(test)]
+mod measure_tests;
+#[cfg(test)]
+mod shards_tests;
 #[cfg(test)]
 mod tests;
 
-pub use config::{CacheConfig, ConfigError, Policy, Ways};
-pub use row::{RecordCounts, Row};
+pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
+pub use curve::{Curve, TraceCounts};
+pub use lanes::{LaneSource, Lanes};
+pub use measures::{Findings, Measures, Span};
+pub use miss_stream::{MissStream, MissStreamError};
+pub use policy::{Policy, UnknownPolicy};
+pub use results::{ResultMemory, SECTOR_BYTES};
+pub use row::{More, RecordCounts, Row};
+pub use shards::{Estimate, LEAST_MODEL, SampledCurve};
 pub use simulation::{Simulation, SimulationError};
+pub use working_set::{Distribution, WorkingSets};

@@ -1,5 +1,6 @@
 //! How every pm program behaves: arguments, input and output, messages, exit codes.
 
+mod bad_input;
 mod error;
 mod input;
 mod output;
@@ -7,7 +8,8 @@ mod progress;
 mod typed;
 mod usage;
 
-pub use input::{Input, named, open_bytes, open_input};
+pub use bad_input::{BadInput, bad_input};
+pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
 pub use usage::{UsageError, usage};

@@ -3,8 +3,10 @@
 //! `README.md` beside this crate is the map of the code and says which module may know which.
 
 pub mod cache;
+pub mod chart;
 pub mod cli;
 pub mod film;
+pub mod foreign;
 pub mod gather;
 pub mod hemisphere;
 pub mod image;
@@ -18,5 +20,6 @@ pub mod report;
 pub mod scene;
 pub mod setting;
 pub mod size;
+pub mod spool;
 pub mod transport;
 pub mod view;

@@ -1,12 +1,31 @@
 //! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
 
+mod buffered;
+mod cells;
+mod charge;
+mod cost;
+mod external;
 mod generative;
+mod hashed;
 mod hilbert;
+mod median_split;
+mod morton;
+mod partition;
+mod snowplow;
 mod sorted;
 
-pub use generative::{Generative, Leaves, Span};
+pub use buffered::Buffered;
+pub use cells::Grid;
+pub use charge::Charge;
+pub use cost::{BURST_BUFFER, COMPACT_RECORD, Record, Store};
+pub use generative::{Generative, Leaves, Pass, Span};
+pub use hashed::Hashed;
 pub use hilbert::{HILBERT_BITS, hilbert_key, hilbert_keys};
-pub use sorted::Sorted;
+pub use median_split::MedianSplit;
+pub use morton::{morton_key, morton_keys};
+pub use partition::Partition;
+pub use snowplow::Snowplow;
+pub use sorted::{Limits, Sorted};
 
 use pm_formats::{BlockMeta, Number, Query};
 
@@ -17,6 +36,16 @@ pub enum Per {
     Batch,
     /// The whole image, which then is one batch
     Image,
+}
+
+impl Per {
+    /// What is to be held together with queries of this block.
+    const fn batch_of(self, meta: BlockMeta) -> BlockMeta {
+        match self {
+            Self::Batch => BlockMeta { records: 0, ..meta },
+            Self::Image => BlockMeta { batch: 0, warm_up: false, records: 0 },
+        }
+    }
 }
 
 /// Takes what a reordering lets go: the block it belongs to, and its queries.

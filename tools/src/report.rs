@@ -65,6 +65,8 @@ impl Column {
 pub enum Value {
     /// An exact count.
     Int(u64),
+    /// An exact difference of counts.
+    Signed(i64),
     /// A ratio, and how many significant digits of it the `table` format shows. Not a number: there is no such ratio.
     Float(f64, u8),
     /// Words.

@@ -7,6 +7,7 @@ mod bvh;
 mod cache_records;
 mod eye;
 mod gather_rays;
+mod guide;
 mod lights;
 mod photon_paths;
 mod reflection;

@@ -19,7 +19,7 @@ struct Args {
     /// Photons to store: whole paths are traced until there are at least so many
     #[arg(short = 'n', long, value_name = "PHOTONS", default_value = "100000")]
     number: u64,
-    /// Store caustics only: photons that came from a light by mirrors and glass alone
+    /// Store caustics only: photons that came from a light by mirrors and glass alone; goes with `pm-queries --no-caustics`
     #[arg(long)]
     caustics: bool,
     /// Seed of the random numbers

@@ -3,16 +3,17 @@
 use anyhow::Context as _;
 use clap::Parser;
 use pm_formats::{
-    BLOCK_RECORDS, BlockMeta, Number, Query, RecordWriter, StageReport, encode_irradiance, encode_weights,
+    BLOCK_RECORDS, BlockMeta, Bounds, Number, Photon, Query, RecordWriter, StageReport, encode_irradiance,
+    encode_weights,
 };
-use pm_tools::cli::{self, Common, Output, OutputArgs, Progress, Typed, create_output};
+use pm_tools::cli::{self, Common, Output, OutputArgs, Progress, Typed, Whole, create_output, named};
 use pm_tools::film::{Film, Overflow};
 use pm_tools::image::{Format, Picture};
 use pm_tools::order::{Generative, Span};
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
 use pm_tools::transport::{CacheOptions, CacheRecords, GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Cast eye rays and final-gather rays; write a gather query wherever one ends on a diffuse surface.
@@ -35,12 +36,16 @@ struct Args {
     /// How gather rays are spread over the hemisphere
     #[arg(long, default_value = "cosine", hide_short_help = true)]
     sampling: Spread,
+    /// Send more gather rays to where these photons come from, and let them weigh less for it: the picture is the same
+    /// but for its noise. `-` is standard input
+    #[arg(long, value_name = "PHOTONS", hide_short_help = true)]
+    guide: Option<PathBuf>,
     /// Gather rays shorter than this, in scene units, are continued by one more bounce; `auto` is 1/100 of the scene's
     /// diagonal
     #[arg(long, value_name = "X|auto", default_value = "0", value_parser = least_distance, hide_short_help = true)]
     min_gather_dist: LeastDistance,
-    /// Leave caustics on the points seen to a map of their own: a gather ray that meets a lamp in a mirror or through
-    /// glass does not count
+    /// Leave caustics on the points seen to a map of their own, of `pm-photons --caustics` and asked by
+    /// `pm-queries --direct-visualisation`: a gather ray that meets a lamp in a mirror or through glass does not count
     #[arg(long, hide_short_help = true)]
     no_caustics: bool,
     /// Order in which the pixels are visited
@@ -49,8 +54,11 @@ struct Args {
     /// Width and height of a tile in pixels
     #[arg(long, value_name = "PIXELS", default_value = "16", value_parser = clap::value_parser!(u32).range(1..))]
     tile: u32,
+    /// Bins of the hemisphere for --order direction-binned, at most as many as --gathers; default: as many
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), hide_short_help = true)]
+    bins: Option<u32>,
     /// In which order the gather rays of a point are cast
-    #[arg(long, default_value = "raster")]
+    #[arg(long, default_value = "raster", hide_short_help = true)]
     strata: Strata,
     /// Also write the direct and emitted light as an EXR or PNG picture, before the stream ends
     #[arg(long, value_name = "FILE")]
@@ -79,6 +87,8 @@ enum Order {
     Scanline,
     /// Square tiles, each in scanline order and a batch; what is seen by reflection or refraction comes last in each
     Tiled,
+    /// As tiled, with a pass over each tile for every bin of the hemisphere
+    DirectionBinned,
 }
 
 const EXAMPLES: &str = "\
@@ -101,6 +111,9 @@ enum LeastDistance {
 const AUTO_SHARE: f32 = 0.01;
 /// Most gather rays of all samples of a pixel: leaves room for 256 points seen by one eye ray in the sample numbers.
 const MOST_GATHERS: u64 = 1 << 24;
+
+/// Gather rays that are cast as one piece of work, at least.
+const WORTH_A_JOB: u64 = 2000;
 
 fn least_distance(text: &str) -> Result<LeastDistance, String> {
     match text.parse::<f32>() {
@@ -140,6 +153,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if u64::from(args.samples) * u64::from(args.gathers) > MOST_GATHERS {
         return Err(cli::usage(format!("--samples times --gathers is more than {MOST_GATHERS}")));
     }
+    if args.guide.is_some() {
+        refuse_guide(&args)?;
+    }
     let scene = args.scene.load(&args.common)?;
     let camera = args.scene.camera(&scene, &args.camera, &args.common)?;
     let size = camera.size();
@@ -147,6 +163,17 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let order = match args.order {
         Order::Scanline => Generative::Scanline,
         Order::Tiled => Generative::Tiled { tile: args.tile },
+        Order::DirectionBinned => {
+            // Points seen that are asked at themselves have no hemisphere.
+            let strata = if args.direct_visualisation { 1 } else { args.gathers };
+            let bins = args.bins.unwrap_or(strata);
+            if bins > strata {
+                return Err(cli::usage(format!(
+                    "--bins {bins} is more than the {strata} strata: give at most {strata}"
+                )));
+            }
+            Generative::DirectionBinned { tile: args.tile, bins }
+        }
     };
     let mut header = header(&scene);
     header.image = size;
@@ -164,7 +191,14 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if args.samples > 1 {
         header.set_meaning("samples", args.samples);
     }
-    header.history.push(typed.step(Some(args.seed)));
+    let guide = args.guide.as_ref().map(|path| read_guide(path, &header.bounds, &args.common)).transpose()?;
+    let mut step = typed.step(Some(args.seed));
+    if let (Some(path), Some(guide)) = (&args.guide, &guide) {
+        header.set_meaning("sampling", "guided");
+        header.set_meaning("guide", format!("{} photons, digest {}", guide.tally.records, guide.tally.digest));
+        step.inputs.push((path.display().to_string(), guide.header.history.clone()));
+    }
+    header.history.push(step);
 
     // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
     let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
@@ -185,7 +219,15 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         direct: base.is_some() || args.irradiance_cache.is_some(),
         strata: args.strata,
     };
-    let rays = GatherRays::new(&scene, camera, options);
+    let mut rays = GatherRays::new(&scene, camera, options).with_bins(order.bins());
+    if let (Some(path), Some(guide)) = (&args.guide, guide) {
+        rays = rays.guided_by(&guide.records);
+        if rays.guiding_photons() == 0 {
+            let why = if guide.records.is_empty() { "no photons" } else { "only photons straight from the lamps" };
+            let path = named(path);
+            args.common.remark(format!("{path} holds {why}: nothing guides the gather rays, the cosine spreads them"));
+        }
+    }
     let wanted = base.is_some();
     let mut film = Film::new(if wanted { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
     // The threads only need its unit.
@@ -201,44 +243,52 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let progress = Progress::new(Some(pixels), "pixels", args.common.quiet);
     let mut counts = RayCounts::default();
     let mut spans = order.spans(size);
+    // A span of few rays is not worth a message to a thread and back.
+    let rays_a_pixel = u64::from(args.samples) * u64::from(gathers.div_ceil(order.bins()));
+    let some_spans = || {
+        let (mut some, mut rays) = (vec![], 0);
+        while rays < WORTH_A_JOB {
+            let Some(span) = spans.next() else { break };
+            rays += u64::from(span.columns.end - span.columns.start) * rays_a_pixel;
+            some.push(span);
+        }
+        anyhow::Ok(Some(some).filter(|some| !some.is_empty()))
+    };
+    let cast = |span: &Span| {
+        let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
+        let mut too_bright = None;
+        for x in span.columns.clone() {
+            let pixel = span.row * size[0] + x;
+            let light = |radiance: glam::Vec3| {
+                if wanted {
+                    match unit.quantise(radiance.as_dvec3().into()) {
+                        Some(units) => cast.light.push((pixel, units)),
+                        None => too_bright = Some(Overflow(pixel)),
+                    }
+                }
+            };
+            let query = |query| cast.queries.push(query);
+            rays.pixel([x, span.row], span.pass, cache.as_ref(), query, light, &mut cast.counts);
+        }
+        too_bright.map_or(Ok(cast), Err)
+    };
     in_order(
         args.common.threads(),
-        || anyhow::Ok(spans.next()),
-        |span: Span| {
-            let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
-            let mut too_bright = None;
-            for x in span.columns.clone() {
-                let pixel = span.row * size[0] + x;
-                let light = |radiance: glam::Vec3| {
-                    if wanted {
-                        match unit.quantise(radiance.as_dvec3().into()) {
-                            Some(units) => cast.light.push((pixel, units)),
-                            None => too_bright = Some(Overflow(pixel)),
-                        }
-                    }
-                };
-                rays.pixel(
-                    [x, span.row],
-                    span.leaves,
-                    cache.as_ref(),
-                    |query| cast.queries.push(query),
-                    light,
-                    &mut cast.counts,
-                );
+        some_spans,
+        |spans: Vec<Span>| spans.iter().map(|span| (cast(span), span.clone())).collect::<Vec<_>>(),
+        |casts| {
+            for (cast, span) in casts {
+                let cast = cast?;
+                output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
+                for (pixel, units) in cast.light {
+                    film.add(pixel, units)?;
+                }
+                counts += cast.counts;
+                if span.pass.is_first() {
+                    progress.add(u64::from(span.columns.end - span.columns.start));
+                }
             }
-            too_bright.map_or(Ok((cast, span)), Err)
-        },
-        |cast| {
-            let (cast, span) = cast?;
-            output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
-            for (pixel, units) in cast.light {
-                film.add(pixel, units)?;
-            }
-            counts += cast.counts;
-            if span.first_pass {
-                progress.add(u64::from(span.columns.end - span.columns.start));
-            }
-            Ok(())
+            anyhow::Ok(())
         },
     )?;
     drop(progress);
@@ -261,7 +311,44 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if options.min_gather_dist > 0.0 {
         report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
     }
+    if args.guide.is_some() {
+        report = report.with("points_guided", Number::Count(counts.guided));
+    }
     output.finish(vec![report])?.commit()
+}
+
+/// Says what a guide does not go together with.
+fn refuse_guide(args: &Args) -> anyhow::Result<()> {
+    if args.direct_visualisation {
+        return Err(cli::usage(
+            "--guide guides gather rays, and --direct-visualisation casts none: leave out one of them",
+        ));
+    }
+    if args.irradiance_cache.is_some() {
+        return Err(cli::usage(
+            "--guide and --irradiance-cache exclude each other: the gradients of cached irradiance need evenly spread rays",
+        ));
+    }
+    if args.sampling == Spread::Uniform {
+        return Err(cli::usage("--guide has half of its rays spread by the cosine: leave out --sampling uniform"));
+    }
+    Ok(())
+}
+
+/// Share of the scene's diagonal by which the bounds of a guide's photons may differ from the scene's.
+const STRANGE: f32 = 0.1;
+
+/// Reads the photons that guide; remarks if they seem to be of another scene.
+fn read_guide(path: &Path, bounds: &Bounds, common: &Common) -> anyhow::Result<Whole<Photon>> {
+    let guide = cli::read_whole::<Photon>(path)?;
+    let corners = |bounds: &Bounds| [glam::Vec3::from(bounds.min), glam::Vec3::from(bounds.max)];
+    let ([min, max], [other_min, other_max]) = (corners(bounds), corners(&guide.header.bounds));
+    let far = (max - min).length() * STRANGE;
+    if !guide.records.is_empty() && (min.distance(other_min) > far || max.distance(other_max) > far) {
+        let path = named(path);
+        common.remark(format!("{path} is not of this scene: its bounds differ; what it guides wrongly is noisier"));
+    }
+    Ok(guide)
 }
 
 /// Irradiance records to a block: their rays make them large.

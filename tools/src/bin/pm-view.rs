@@ -2,20 +2,25 @@
 
 use anyhow::Context as _;
 use clap::Parser;
+use pm_formats::trace::TraceReader;
 use pm_formats::{BlockReader, Record};
-use pm_tools::cli::{self, Input, OutputArgs, Typed, Voice, create_output, named, open_bytes, open_input, usage};
+use pm_tools::cli::{
+    self, Input, OutputArgs, Progress, Typed, Voice, create_output, named, open_bytes, open_input, usage,
+};
+use pm_tools::foreign::{Exporter, Form};
 use pm_tools::image::{
     self, Comparison, Description, PIXELS_PER_DEGREE, Picture, Preview, Region, RegionMean, contact_sheet, hdr_flip,
     ldr_flip,
 };
 use pm_tools::report::Format;
 use pm_tools::setting::size;
+use pm_tools::size::Bytes;
 use pm_tools::view::{self, Flips, Import, Imported};
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points.
+/// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points; export traces.
 ///
 /// Without options: header, history, and, read to the end, counts, digest and what each stage measured. Two pictures,
 /// a.exr b.exr: how far b is from a; ldr_flip and hdr_flip are the means of FLIP, 0 for the same to 1 for black and white,
@@ -43,6 +48,12 @@ struct Args {
     /// Make a stream of the rows of a file: CSV (commas, semicolons, tabs or blanks) or raw numbers
     #[arg(long, value_name = "KIND", group = "what")]
     import: Option<What>,
+    /// Write a trace for another simulator: raw32, raw64, din, xdin, dinb, lackey, oracleGeneral, csv, dramsim3, ramulator2
+    #[arg(long, value_name = "FORMAT", group = "what", hide_possible_values = true)]
+    export: Option<Form>,
+    /// Cut exported accesses where lines of so many bytes end; formats without sizes then get lines
+    #[arg(long, value_name = "BYTES", requires = "export", hide_short_help = true)]
+    line: Option<Bytes>,
     /// Names of the columns where the file has none, such as x,y,z,_,power_r; `_` skips one
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "import")]
     columns: Option<Vec<String>>,
@@ -94,7 +105,7 @@ const EXAMPLES: &str = "\
 Examples:
   pm-queries | pm-reorder hilbert | pm-view --records=10
   pm-view --check out/map.pmp out/hilbert.pmq
-  pm-view a.exr b.exr
+  pm-view --export dramsim3 --line 64 out/hilbert.pmt -o hilbert.txt
   pm-view --import photons photons.csv --emitted 100000 -o map.pmp";
 
 fn main() -> ExitCode {
@@ -107,6 +118,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     if let Some(sheet) = &args.sheet {
         return make_sheet(sheet, &args);
+    }
+    if let Some(form) = args.export {
+        return export(form, &args);
     }
     let pictures = args.streams.iter().filter(|path| is_picture(path)).count();
     if !args.mean.is_empty() {
@@ -191,6 +205,31 @@ fn make_sheet(sheet: &Path, args: &Args) -> anyhow::Result<()> {
     let mut output = create_output(sheet)?;
     output.write_all(&contact_sheet(&previews)?)?;
     output.commit()
+}
+
+fn export(form: Form, args: &Args) -> anyhow::Result<()> {
+    let [path] = &args.streams[..] else {
+        return Err(usage("--export reads one trace"));
+    };
+    let line = args.line.map(|line| line.0);
+    if line.is_some_and(|line| !line.is_power_of_two() || line > 1 << 31) {
+        return Err(usage("--line: a power of two up to 2147483648 is needed"));
+    }
+    let name = named(path);
+    let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
+    let regions = trace.header().regions.clone();
+    let output = if form.is_text() {
+        create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?
+    } else {
+        args.output.create()?
+    };
+    let mut exporter = Exporter::new(form, line, &regions, output)?;
+    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
+    while let Some(block) = trace.replay_block(&mut exporter).with_context(|| name.clone())? {
+        exporter.check().with_context(|| name.clone())?;
+        progress.add(block.records.into());
+    }
+    exporter.finish()?.commit()
 }
 
 fn import(what: What, args: &Args, typed: &Typed) -> anyhow::Result<()> {

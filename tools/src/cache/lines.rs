@@ -2,7 +2,10 @@
 
 use pm_formats::trace::Region;
 
-use super::records::{Batch, Shape, Tag};
+use super::{
+    measures::Span,
+    records::{Batch, Shape, Tag},
+};
 
 /// Numbers the lines of all regions without gaps, so that a model can keep a table indexed by line.
 ///
@@ -14,6 +17,8 @@ pub(super) struct LineSpace {
     shift: u32,
     regions: Vec<Numbering>,
     slots: u64,
+    /// Bits of a record's length that count: all, or none if only the line of its first byte is touched.
+    len_mask: u32,
 }
 
 /// How the lines of a region are numbered.
@@ -56,7 +61,23 @@ impl LineSpace {
             previous = previous.max(Some(last));
             numberings[r].delta = delta;
         }
-        Self { shift, regions: numberings, slots }
+        Self { shift, regions: numberings, slots, len_mask: u32::MAX }
+    }
+
+    /// The same with another rule for records that span lines.
+    pub(super) fn with_span(self, span: Span) -> Self {
+        Self { len_mask: if span == Span::Both { u32::MAX } else { 0 }, ..self }
+    }
+
+    /// Slots of the first and the last line that a record touches.
+    #[inline]
+    pub(super) fn ends(&self, offset: u64, shape: Shape) -> (u32, u32) {
+        self.regions[shape.tag().region()].ends(self.shift, offset, shape.len() & self.len_mask)
+    }
+
+    /// Line in bytes.
+    pub(super) fn line_bytes(&self) -> u32 {
+        1 << self.shift
     }
 
     /// Number of slots.
@@ -144,7 +165,7 @@ impl LineChunk {
             let shape = if MIXED { shape } else { common };
             let tag = shape.tag();
             let numbering = if MIXED { space.regions[tag.region()] } else { numbering };
-            let (first, last) = numbering.ends(space.shift, offset, shape.len());
+            let (first, last) = numbering.ends(space.shift, offset, shape.len() & space.len_mask);
             // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
             // where the next one goes, and the place is taken or not.
             slots[len] = first;
@@ -174,7 +195,7 @@ impl LineChunk {
         while cursor.records < batch.shapes.len() && self.slots.len() < LONG_CHUNK {
             let at = cursor.records;
             let (shape, tag) = (batch.shapes[at], batch.shapes[at].tag());
-            let (first, last) = space.regions[tag.region()].ends(space.shift, batch.offsets[at], shape.len());
+            let (first, last) = space.ends(batch.offsets[at], shape);
             let from = first + cursor.lines;
             let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
             self.slots.extend(from..=to);

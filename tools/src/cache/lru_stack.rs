@@ -18,6 +18,7 @@
 
 use super::{
     lines::{LineChunk, LineSpace},
+    misses::Misses,
     model::{CacheModel, Tally},
 };
 
@@ -234,7 +235,12 @@ impl LruStack {
     ///
     /// Whether there are writes, and whether there is one size only, is settled outside of the loop: that
     /// makes the most common case, reads through one cache, a quarter faster.
-    fn pass<const WRITES: bool, const ONE_SIZE: bool>(&mut self, chunk: &LineChunk, counted: bool) {
+    fn pass<const WRITES: bool, const ONE_SIZE: bool>(
+        &mut self,
+        chunk: &LineChunk,
+        counted: bool,
+        misses: &mut Misses,
+    ) {
         let slots = chunk.slots();
         let start = self.now;
         let mut pending = Pending { slots, start, seen: 0 };
@@ -251,6 +257,7 @@ impl LruStack {
                     make_room(&mut self.levels, depth, &mut pending, i, &self.last);
                 }
                 tail = self.levels[0].tail;
+                misses.push(i, depth);
                 self.missed[depth * self.regions + chunk.tag(i).region()] += u64::from(counted);
                 self.compulsory += u64::from(counted && before == NEVER);
             }
@@ -311,7 +318,7 @@ fn make_room(levels: &mut [Level], depth: usize, pending: &mut Pending, now: usi
 }
 
 impl CacheModel for LruStack {
-    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
         if (self.horizon - self.now) as usize <= chunk.slots().len() {
             self.renumber();
         }
@@ -320,10 +327,10 @@ impl CacheModel for LruStack {
         }
         // A trace without writes, which most are, never looks at dirtiness.
         match (self.dirt.is_empty(), self.levels.len() == 1) {
-            (true, true) => self.pass::<false, true>(chunk, counted),
-            (true, false) => self.pass::<false, false>(chunk, counted),
-            (false, true) => self.pass::<true, true>(chunk, counted),
-            (false, false) => self.pass::<true, false>(chunk, counted),
+            (true, true) => self.pass::<false, true>(chunk, counted, misses),
+            (true, false) => self.pass::<false, false>(chunk, counted, misses),
+            (false, true) => self.pass::<true, true>(chunk, counted, misses),
+            (false, false) => self.pass::<true, false>(chunk, counted, misses),
         }
     }
 
@@ -365,7 +372,7 @@ mod tests {
                 records.push(&Access { kind, region: 0, len: 4, offset: u64::from(line) * 64 });
             }
             chunk.split(&space, &records.batch(), &mut Cursor::default());
-            stack.run(&space, &chunk, round != 7);
+            stack.run(&space, &chunk, round != 7, &mut Misses::default());
         }
         stack.finish()
     }

@@ -1,13 +1,17 @@
 //! What every simulated cache has in common.
 
-use super::lines::{LineChunk, LineSpace};
+use super::{
+    lines::{LineChunk, LineSpace},
+    misses::Misses,
+};
 
 /// A cache, or several of one line size, that line accesses are run through.
 ///
 /// Called once for some thousand line accesses, so that the call costs nothing and the loop inside knows its policy.
 pub(super) trait CacheModel {
-    /// Runs the line accesses of `chunk`; `counted` is false during warm-up, when only the state changes.
-    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool);
+    /// Runs the line accesses of `chunk`; `counted` is false during warm-up, when only the state changes. Tells `misses`
+    /// of each miss, in order.
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses);
 
     /// What came of it, for each cache of the model in the order it was built with.
     fn finish(self: Box<Self>) -> Vec<Tally>;

@@ -103,6 +103,11 @@ impl Records {
         true
     }
 
+    /// Number of accesses that wait.
+    pub(super) fn len(&self) -> usize {
+        self.end - self.start
+    }
+
     /// Forgets all accesses.
     pub(super) fn clear(&mut self) {
         self.end = self.start;
@@ -135,6 +140,12 @@ impl Batch<'_> {
             }
             _ => self.offsets.iter().zip(self.shapes).all(|(&offset, &shape)| offset < limit(shape)),
         }
+    }
+
+    /// Region, offset and length of each access that reads.
+    pub(super) fn reads(&self) -> impl Iterator<Item = (usize, u64, u32)> {
+        let records = self.offsets.iter().zip(self.shapes).filter(|(_, shape)| shape.tag().kind() != AccessKind::Write);
+        records.map(|(&offset, shape)| (shape.tag().region(), offset, shape.len()))
     }
 
     /// Adds the accesses to the counts of their regions.

@@ -1,8 +1,10 @@
 //! What a simulation found out, for one cache.
 
+use std::rc::Rc;
+
 use pm_formats::trace::AccessKind;
 
-use super::CacheConfig;
+use super::{CacheConfig, WorkingSets};
 
 /// Record accesses of a region as the trace has them, before any cache. All counts leave warm-up out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,6 +74,19 @@ pub struct Row {
     pub blocks: u64,
     /// Fetches for accesses to each region, in the trace's order of regions; they add up to `fetches`.
     pub region_fetches: Vec<u64>,
+    /// What was to be found out besides.
+    pub more: More,
+}
+
+/// Counts of a cache that have to be asked for by [`Measures`](super::Measures); `None` if they were not.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct More {
+    /// Lines that a fully associative LRU cache of the same size and line fetches. `None` where there is no cache, too.
+    pub full_lru_fetches: Option<u64>,
+    /// How often the DRAM page changed from one fetch to the next.
+    pub page_switches: Option<u64>,
+    /// Distinct lines of searches and batches; the same for all caches of a line size.
+    pub working_sets: Option<Rc<WorkingSets>>,
 }
 
 impl Row {
@@ -112,6 +127,26 @@ impl Row {
         ratio(self.traffic_bytes(), self.queries)
     }
 
+    /// Capacity misses (Hill and Smith, *Evaluating associativity in CPU caches*, IEEE TC 38, 1989): what a fully
+    /// associative LRU cache of the same size fetches beyond the compulsory.
+    #[must_use]
+    pub fn capacity(&self) -> Option<u64> {
+        Some(self.more.full_lru_fetches?.saturating_sub(self.compulsory))
+    }
+
+    /// Conflict misses: what the cache fetches beyond a fully associative LRU cache of the same size. Below zero where
+    /// sets or another policy do better than that.
+    #[must_use]
+    pub fn conflict(&self) -> Option<i64> {
+        Some(self.fetches as i64 - self.more.full_lru_fetches? as i64)
+    }
+
+    /// Changes of the DRAM page for each fetch.
+    #[must_use]
+    pub fn page_switches_per_fetch(&self) -> Option<f64> {
+        Some(ratio(self.more.page_switches?, self.fetches))
+    }
+
     /// Fetches for each line access.
     #[must_use]
     pub fn miss_rate(&self) -> f64 {
@@ -120,6 +155,6 @@ impl Row {
 }
 
 /// `a / b`; 0 / 0 is not a number.
-fn ratio(a: u64, b: u64) -> f64 {
+pub(super) fn ratio(a: u64, b: u64) -> f64 {
     a as f64 / b as f64
 }

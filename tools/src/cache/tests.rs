@@ -1,36 +1,39 @@
 //! Do the counts agree with what can be known otherwise?
 
+mod optimum;
+mod policies;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use pm_formats::trace::{Access, AccessKind, Coding, Region, TraceSink, lay_out};
 
-use super::{CacheConfig, Policy, Row, Simulation, Ways};
+use super::{CacheConfig, Measures, Policy, Row, Simulation, Ways};
 
 /// What a trace replays.
 #[derive(Clone, Debug)]
-enum Event {
+pub(super) enum Event {
     Block { warm_up: bool },
     Search(Vec<u32>),
     Access(Access),
 }
 
 /// Small random numbers, the same on every run (splitmix64).
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn below(&mut self, n: u64) -> u64 {
+    pub(super) fn below(&mut self, n: u64) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         (z ^ (z >> 31)) % n
     }
 
-    fn pick<T: Clone>(&mut self, of: &[T]) -> T {
+    pub(super) fn pick<T: Clone>(&mut self, of: &[T]) -> T {
         of[self.below(of.len() as u64) as usize].clone()
     }
 }
 
-fn replay(events: &[Event], sink: &mut dyn TraceSink) {
+pub(super) fn replay(events: &[Event], sink: &mut dyn TraceSink) {
     for event in events {
         match event {
             Event::Block { warm_up } => sink.block(0, *warm_up),
@@ -41,13 +44,13 @@ fn replay(events: &[Event], sink: &mut dyn TraceSink) {
 }
 
 fn simulate(regions: &[Region], configs: &[CacheConfig], events: &[Event], chunk: usize) -> Vec<Row> {
-    let mut simulation = Simulation::with_chunk(regions, configs, chunk).unwrap();
+    let mut simulation = Simulation::with_chunk(regions, configs, &Measures::default(), chunk).unwrap();
     replay(events, &mut simulation);
     simulation.finish()
 }
 
 /// The oracle: a cache as a list of lines, most recent first, in the plainest way there is.
-fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
+pub(super) fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
     let line_bytes = u64::from(config.line_bytes());
     let sets = match config.ways() {
         Ways::Full => 1,
@@ -67,6 +70,7 @@ fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
         compulsory: 0,
         blocks: regions.iter().map(|r| r.size).sum::<u64>().div_ceil(line_bytes),
         region_fetches: vec![0; regions.len()],
+        more: Default::default(),
     };
     let (mut counted, mut write_backs) = (true, 0);
     for event in events {
@@ -119,7 +123,7 @@ fn oracle(regions: &[Region], config: CacheConfig, events: &[Event]) -> Row {
     row
 }
 
-fn random_regions(random: &mut Random) -> Vec<Region> {
+pub(super) fn random_regions(random: &mut Random) -> Vec<Region> {
     let mut regions = lay_out((0..random.below(4) + 1).map(|i| {
         let size = random.pick(&[1, 40, 500, 4096, 9000, 20_000]);
         (format!("region {i}"), size, 20, Coding::Records)
@@ -130,7 +134,7 @@ fn random_regions(random: &mut Random) -> Vec<Region> {
     regions
 }
 
-fn random_events(random: &mut Random, regions: &[Region]) -> Vec<Event> {
+pub(super) fn random_events(random: &mut Random, regions: &[Region]) -> Vec<Event> {
     let writes = random.below(2) == 0;
     let longest = random.pick(&[1, 20, 20, 300]);
     let warm_ups = random.below(2) == 0;

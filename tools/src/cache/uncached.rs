@@ -2,6 +2,7 @@
 
 use super::{
     lines::{LineChunk, LineSpace},
+    misses::Misses,
     model::{CacheModel, Tally},
 };
 
@@ -18,7 +19,7 @@ impl Uncached {
 }
 
 impl CacheModel for Uncached {
-    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool) {
+    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool, _: &mut Misses) {
         let mut first = 0;
         for &slot in chunk.slots() {
             first += u64::from(!std::mem::replace(&mut self.touched[slot as usize], true));

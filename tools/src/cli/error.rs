@@ -1,5 +1,6 @@
 //! Outcomes: one line on standard error and an exit code.
 
+use super::bad_input::BadInput;
 use super::output::{ReaderGone, unfinished_files};
 use super::say;
 use super::usage::UsageError;
@@ -32,7 +33,9 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
     let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
     if found(|cause| cause.is::<UsageError>()) {
         ExitCode::from(2)
-    } else if found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage)) {
+    } else if is_bad_input(&error)
+        || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))
+    {
         ExitCode::from(3)
     } else {
         ExitCode::from(1)
@@ -40,11 +43,18 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
 }
 
 fn is_reader_gone(error: &anyhow::Error) -> bool {
-    error.chain().any(|cause| {
-        let io = match cause.downcast_ref::<pm_formats::Error>() {
-            Some(pm_formats::Error::Io(io)) => Some(io),
-            _ => cause.downcast_ref::<io::Error>(),
-        };
-        io.and_then(io::Error::get_ref).is_some_and(|inner| inner.is::<ReaderGone>())
-    })
+    error.chain().any(holds::<ReaderGone>)
+}
+
+fn is_bad_input(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| cause.is::<BadInput>() || holds::<BadInput>(cause))
+}
+
+/// Whether a cause is an error of input or output that was made from an error of this type.
+fn holds<T: std::error::Error + 'static>(cause: &(dyn std::error::Error + 'static)) -> bool {
+    let io = match cause.downcast_ref::<pm_formats::Error>() {
+        Some(pm_formats::Error::Io(io)) => Some(io),
+        _ => cause.downcast_ref::<io::Error>(),
+    };
+    io.and_then(io::Error::get_ref).is_some_and(|inner| inner.is::<T>())
 }

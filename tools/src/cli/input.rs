@@ -2,7 +2,7 @@
 
 use super::usage::usage;
 use anyhow::Context as _;
-use pm_formats::BlockReader;
+use pm_formats::{BlockReader, End, Header, Record, RecordReader, Tally};
 use std::fs::File;
 use std::io::{self, BufReader, IsTerminal as _, Read};
 use std::os::fd::AsFd as _;
@@ -54,6 +54,32 @@ pub fn open_bytes(path: &Path) -> anyhow::Result<Input> {
         return Err(usage(format!("{name} is a folder; a stream is expected")));
     }
     Ok(Input { name, file: BufReader::with_capacity(1 << 18, file) })
+}
+
+/// A stream of records that was read to its end.
+pub struct Whole<T> {
+    /// Its header.
+    pub header: Header,
+    /// All its records, in order.
+    pub records: Vec<T>,
+    /// Its end block.
+    pub end: End,
+    /// Number and digest of the records.
+    pub tally: Tally,
+}
+
+/// Reads a stream of records into memory.
+///
+/// # Errors
+/// If it cannot be opened or read, holds other records, or is incomplete or damaged.
+pub fn read_whole<T: Record>(path: &Path) -> anyhow::Result<Whole<T>> {
+    let mut input = RecordReader::<T, _>::from_blocks(open_input(path)?).with_context(|| named(path))?;
+    let mut records = vec![];
+    while let Some((_, block)) = input.next_block().with_context(|| named(path))? {
+        records.extend(block);
+    }
+    let end = input.end()?.clone();
+    Ok(Whole { header: input.header().clone(), records, end, tally: input.tally() })
 }
 
 impl Input {

@@ -1,6 +1,6 @@
 //! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
 
-use super::{Outcome, RadianceEstimate, Scratch};
+use super::{Outcome, PrecomputedIrradiance, RadianceEstimate, Scratch};
 use crate::film::{Film, Overflow};
 use crate::irradiance::CachedIrradiance;
 use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
@@ -22,6 +22,8 @@ pub struct Answerer<'a, M> {
     pub reread: bool,
     /// The irradiance records that queries may belong to.
     pub cache: &'a CachedIrradiance,
+    /// Irradiance computed beforehand, where it is to answer queries of diffuse surfaces.
+    pub precomputed: Option<&'a PrecomputedIrradiance<'a>>,
     /// How radiance is estimated, and a film that knows the picture's unit, if a picture is wanted.
     pub estimate: Option<(&'a RadianceEstimate<'a>, &'a Film)>,
 }
@@ -51,6 +53,8 @@ pub struct SearchCounts {
     pub short: u64,
     /// Estimates that could not be made because the photons' disc has no area.
     pub no_area: u64,
+    /// Queries for which there was no precomputed irradiance with a similar normal.
+    pub no_site: u64,
 }
 
 impl AddAssign for SearchCounts {
@@ -59,6 +63,7 @@ impl AddAssign for SearchCounts {
         self.attempts += other.attempts;
         self.short += other.short;
         self.no_area += other.no_area;
+        self.no_site += other.no_site;
     }
 }
 
@@ -82,8 +87,8 @@ impl<M: PhotonMap> Answerer<'_, M> {
         let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
         let mut found = Nearest::new(self.search.k, 0.0);
         // Where the coding of walks implies the second touches they need not be remembered.
-        let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { .. });
-        let implied = self.reread && self.regions.is_some_and(|regions| regions.iter().any(walk));
+        let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { reread: true, .. });
+        let implied = self.regions.is_some_and(|regions| regions.iter().any(walk));
         let mut visits = Visits::with_rereads(self.reread && !implied);
         let mut scratch = Scratch::default();
         let mut encoder = self.regions.map(BlockEncoder::new);
@@ -92,16 +97,23 @@ impl<M: PhotonMap> Answerer<'_, M> {
         let mut counts = SearchCounts::default();
         for query in &queries {
             visits.clear();
-            counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
+            let known = self.precomputed.filter(|sites| sites.serves(query));
+            let known = known.map(|sites| sites.contribution(query, &mut visits));
+            if let Some(outcome) = known {
+                counts.attempts += 1;
+                counts.no_site += u64::from(outcome == Outcome::NoSite);
+            } else {
+                counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
+                counts.short += u64::from(!found.is_full());
+            }
             counts.accesses += visits.len() as u64 + if implied { visits.rereads() } else { 0 };
-            counts.short += u64::from(!found.is_full());
             if let Some(encoder) = &mut encoder {
                 encoder.begin(&[query.pixel]);
                 visits.runs().for_each(|(region, records)| encoder.records(region, records));
                 encoder.end();
             }
             if let Some((estimate, film)) = self.estimate {
-                match estimate.contribution(query, &found, &mut scratch) {
+                match known.unwrap_or_else(|| estimate.contribution(query, &found, &mut scratch)) {
                     Outcome::Radiance(radiance) if query.is_for_record() => {
                         let terms = self.cache.contributions(query.pixel, query.sample, radiance);
                         for (sum, value) in terms.ok_or(Fault::Damaged("a query's irradiance record is not there"))? {
@@ -113,6 +125,7 @@ impl<M: PhotonMap> Answerer<'_, M> {
                         contributions.push((query.pixel, units));
                     }
                     Outcome::NoArea => counts.no_area += 1,
+                    Outcome::NoSite => {}
                 }
             }
         }

@@ -49,6 +49,8 @@ pub enum Outcome {
     Radiance([f64; 3]),
     /// The nearest photons all lie at the query's own point, so that their disc has no area: nothing can be said.
     NoArea,
+    /// Irradiance was computed beforehand nowhere where the normal is similar: no light.
+    NoSite,
 }
 
 /// What every sum needs of a photon.
@@ -83,6 +85,23 @@ pub struct Scratch {
 /// or on the other side. The cosine of 26 degrees: well beyond the 2 degrees that the packed normal may be off.
 const MIN_NORMAL_COSINE: f32 = 0.9;
 
+/// Cuts that leave less than this share of the disc are not made: next to no photon lies there, and where surfaces are a
+/// tangle nothing may be left to divide by.
+const LEAST_SHARE: f64 = 1.0 / 64.0;
+
+/// A unit normal in steps of 1/127.
+#[expect(clippy::cast_possible_truncation, reason = "|components| <= 1")]
+pub(super) fn coarse(normal: [f32; 3]) -> [i8; 3] {
+    normal.map(|x| (x * 127.0).round() as i8)
+}
+
+/// Is a photon's surface, by its coarse normal, the one whose unit normal is `normal`?
+#[inline]
+pub(super) fn on_same_surface(photon: [i8; 3], normal: [f32; 3]) -> bool {
+    let [x, y, z] = photon.map(f32::from);
+    x * normal[0] + y * normal[1] + z * normal[2] > MIN_NORMAL_COSINE * 127.0
+}
+
 impl<'a> RadianceEstimate<'a> {
     /// Prepares estimates from `photons`, whose flux is theirs divided by `emitted_paths`.
     #[must_use]
@@ -92,11 +111,8 @@ impl<'a> RadianceEstimate<'a> {
         let exponents = || photons.iter().map(|photon| u32::from(photon.power[3])).filter(|&exponent| exponent > 0);
         let span = exponents().max().unwrap_or(0) - exponents().min().unwrap_or(0);
         let exact_sums = span + 8 + usize::BITS - options.k.leading_zeros() <= 53;
-        #[expect(clippy::cast_possible_truncation, reason = "8-bit mantissas and |components| <= 1")]
-        let flux = |photon: &Photon| Flux {
-            power: photon.power().map(|x| x as f32),
-            normal: photon.normal().map(|x| (x * 127.0).round() as i8),
-        };
+        #[expect(clippy::cast_possible_truncation, reason = "8-bit mantissas")]
+        let flux = |photon: &Photon| Flux { power: photon.power().map(|x| x as f32), normal: coarse(photon.normal()) };
         #[expect(clippy::cast_precision_loss, reason = "path counts stay below 2^53")]
         let emitted_paths = emitted_paths.max(1) as f64;
         Self { flux: photons.iter().map(flux).collect(), photons, materials, emitted_paths, options, exact_sums }
@@ -105,6 +121,47 @@ impl<'a> RadianceEstimate<'a> {
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
     pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
+        let (surface, area) = match self.area(query.position, query.normal(), found, scratch) {
+            Ok(known) => known,
+            Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
+            Err(Nothing::NoArea) => return Outcome::NoArea,
+        };
+        let material = &self.materials[usize::from(query.material)];
+        let reflected = self.reflected(&surface, query, material, &mut scratch.own);
+        Outcome::Radiance(
+            [0, 1, 2]
+                .map(|channel| f64::from(query.weight[channel]) * reflected[channel] / (area * self.emitted_paths)),
+        )
+    }
+
+    /// Irradiance at a point of a surface, in watts per square scene unit, given the photons found for it; `None` if
+    /// their disc has no area.
+    #[must_use]
+    pub fn irradiance(
+        &self,
+        position: [f32; 3],
+        normal: [f32; 3],
+        found: &Nearest,
+        scratch: &mut Scratch,
+    ) -> Option<[f64; 3]> {
+        match self.area(position, normal, found, scratch) {
+            Ok((surface, area)) => {
+                let flux = self.sum(&surface, None, &mut scratch.own);
+                Some(flux.map(|flux| flux / (area * self.emitted_paths)))
+            }
+            Err(Nothing::Dark) => Some([0.0; 3]),
+            Err(Nothing::NoArea) => None,
+        }
+    }
+
+    /// Leaves in `scratch.own` the photons that count, and says what area they light.
+    fn area(
+        &self,
+        position: [f32; 3],
+        normal: [f32; 3],
+        found: &Nearest,
+        scratch: &mut Scratch,
+    ) -> Result<(Surface, f64), Nothing> {
         let EstimateOptions { max_dist, estimator, kernel, edges, .. } = self.options;
         // The photon that sets the radius, and the squared radius. Where the limit cuts the search short it sets the
         // radius itself and all photons count; with no limit, the farthest of the few photons there are does.
@@ -114,38 +171,32 @@ impl<'a> RadianceEstimate<'a> {
         };
         let rim = rim.filter(|_| estimator == Estimator::Unbiased);
         if radius_squared.is_nan() || radius_squared <= 0.0 {
-            return if found.is_empty() { Outcome::Radiance([0.0; 3]) } else { Outcome::NoArea };
+            return Err(if found.is_empty() { Nothing::Dark } else { Nothing::NoArea });
         }
         let radius_squared = f64::from(radius_squared);
-        let surface = Surface { query, position: Vec3::from(query.position).as_dvec3(), radius: radius_squared.sqrt() };
-        let mut disc = Disc::new(Vec3::from(query.normal()).as_dvec3());
+        let surface = Surface { position: Vec3::from(position).as_dvec3(), normal, radius: radius_squared.sqrt() };
+        let mut disc = Disc::new(Vec3::from(normal).as_dvec3());
         self.sort_out(&surface, found, rim, scratch);
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
         if edges == Edges::Cut && radius_squared.is_finite() && !scratch.strangers.is_empty() {
             disc.cut(&scratch.strangers);
+            if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
+                disc = Disc::new(Vec3::from(normal).as_dvec3());
+            }
             if !disc.is_whole() {
                 scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
             }
         }
-        let area = radius_squared * disc.integral(kernel);
-        let material = &self.materials[usize::from(query.material)];
-        let reflected = self.reflected(&surface, material, &mut scratch.own);
-        Outcome::Radiance(
-            [0, 1, 2]
-                .map(|channel| f64::from(query.weight[channel]) * reflected[channel] / (area * self.emitted_paths)),
-        )
+        Ok((surface, radius_squared * disc.integral(kernel)))
     }
 
     /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
-    fn sort_out(&self, surface: &Surface<'_>, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
-        let normal = surface.query.normal();
+    fn sort_out(&self, surface: &Surface, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
         let wanted = self.options.edges == Edges::Cut;
         scratch.own.clear();
         scratch.strangers.clear();
         for (distance, id) in found.iter() {
-            let n = self.flux[id as usize].normal;
-            let cosine = f32::from(n[0]) * normal[0] + f32::from(n[1]) * normal[1] + f32::from(n[2]) * normal[2];
-            if cosine > MIN_NORMAL_COSINE * 127.0 {
+            if on_same_surface(self.flux[id as usize].normal, surface.normal) {
                 if Some(id) != rim {
                     scratch.own.push((id, distance));
                 }
@@ -158,16 +209,26 @@ impl<'a> RadianceEstimate<'a> {
     }
 
     /// Sum over photons of kernel weight x BRDF x power.
-    fn reflected(&self, surface: &Surface<'_>, material: &Material, own: &mut [(u32, f32)]) -> [f64; 3] {
-        let kernel = self.options.kernel;
-        let lobe = Lobe::of(material, surface.query);
+    fn reflected(&self, surface: &Surface, query: &Query, material: &Material, own: &mut [(u32, f32)]) -> [f64; 3] {
         let diffuse = material.diffuse.map(|share| f64::from(share) / PI);
-        let exact = self.exact_sums && kernel == Kernel::Constant && lobe.is_none();
+        match Lobe::of(material, query) {
+            // Where every photon counts alike the BRDF waits until the powers are summed, exactly.
+            None => {
+                let sum = self.sum(surface, None, own);
+                [0, 1, 2].map(|channel| sum[channel] * diffuse[channel])
+            }
+            Some(lobe) => self.sum(surface, Some((&lobe, diffuse)), own),
+        }
+    }
+
+    /// Sum over photons of kernel weight x power, times the BRDF (lobe and diffuse part) if there is one.
+    fn sum(&self, surface: &Surface, brdf: Option<(&Lobe, [f64; 3])>, own: &mut [(u32, f32)]) -> [f64; 3] {
+        let kernel = self.options.kernel;
+        let exact = self.exact_sums && kernel == Kernel::Constant && brdf.is_none();
         if !exact {
             // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
             own.sort_unstable_by_key(|&(id, _)| id);
         }
-        // Where every photon counts alike the BRDF waits until the powers are summed, exactly.
         let mut sum = [0f64; 3];
         for &(id, distance) in &*own {
             let power = self.flux[id as usize].power;
@@ -175,9 +236,9 @@ impl<'a> RadianceEstimate<'a> {
                 Kernel::Constant => 1.0,
                 _ => kernel.weight(f64::from(distance).sqrt() / surface.radius),
             };
-            match &lobe {
+            match brdf {
                 None => (0..3).for_each(|channel| sum[channel] += weight * f64::from(power[channel])),
-                Some(lobe) => {
+                Some((lobe, diffuse)) => {
                     let glossy = lobe.brdf(self.photons[id as usize].towards_source());
                     for channel in 0..3 {
                         sum[channel] += weight * f64::from(power[channel]) * (diffuse[channel] + glossy[channel]);
@@ -185,7 +246,7 @@ impl<'a> RadianceEstimate<'a> {
                 }
             }
         }
-        if lobe.is_none() { [0, 1, 2].map(|channel| sum[channel] * diffuse[channel]) } else { sum }
+        sum
     }
 
     /// Radiance that the photons' flux suggests for a scene of these bounds: the scale for a [`Film`](crate::film::Film).
@@ -200,15 +261,23 @@ impl<'a> RadianceEstimate<'a> {
     }
 }
 
-/// Where a query asks.
-struct Surface<'a> {
-    query: &'a Query,
+/// Why there is no area that photons light.
+enum Nothing {
+    /// None was found.
+    Dark,
+    /// All were found at one point.
+    NoArea,
+}
+
+/// Where light is asked for.
+struct Surface {
     position: DVec3,
+    normal: [f32; 3],
     radius: f64,
 }
 
-impl Surface<'_> {
-    /// Where a photon is, from the query, in radii.
+impl Surface {
+    /// Where a photon is, from there, in radii.
     fn offset(&self, photon: &Photon) -> DVec3 {
         (Vec3::from(photon.position).as_dvec3() - self.position) / self.radius
     }

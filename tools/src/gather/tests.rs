@@ -215,6 +215,24 @@ fn at_an_edge_and_in_a_corner_the_estimate_is_that_of_the_middle() {
 }
 
 #[test]
+fn cuts_that_leave_nothing_are_not_made() {
+    // The planes of two strangers pass through the query and leave it opposite halves of its surface.
+    let own = [0.6, 0.8, 0.0];
+    let at = |position: [f32; 3], normal: [f32; 3]| Photon::new(position, [8.0; 3], [0.5; 3], own, normal).unwrap();
+    let photons = [
+        at([0.0; 3], own),
+        at([-1.0, 0.0, 0.0], UP),
+        at([1.0, 0.0, 0.0], own),
+        at([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
+        at([0.0, 0.0, 2.0], own),
+    ];
+    let (normal, view) = Query::pack_vectors(own, own);
+    let query = Query { normal, view, ..query() };
+    let options = EstimateOptions { k: 5, ..OPTIONS };
+    assert_close(estimate_with(&photons, 1, options, &material(), &query), by_hand(16.0, 2.0, 1.0));
+}
+
+#[test]
 fn rounded_sums_and_cuts_do_not_depend_on_the_order_found() {
     let mut random = Random::new(&[10]);
     let photons = corner(&mut random, 2000.0, 0.01, 2);

@@ -16,6 +16,14 @@ pub enum Generative {
         /// Width and height in pixels; tiles at the right and lower edge may be smaller.
         tile: u32,
     },
+    /// As tiled, with a pass over the tile's pixels for each bin of the hemisphere: rays that leave neighbouring points
+    /// in like directions follow one another. Then the same for what is seen in mirrors and through glass.
+    DirectionBinned {
+        /// Width and height in pixels.
+        tile: u32,
+        /// Bins that the strata of a hemisphere are put into.
+        bins: u32,
+    },
 }
 
 /// Which of a pixel's points seen are gathered for.
@@ -29,6 +37,30 @@ pub enum Leaves {
     BehindSpecular,
 }
 
+/// What of a pixel's gather rays is cast at one visit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// From which points seen.
+    pub leaves: Leaves,
+    /// Into which bin of the hemisphere, counted from 0.
+    pub bin: u32,
+}
+
+impl Pass {
+    /// Is it a pixel's first visit?
+    #[must_use]
+    pub fn is_first(self) -> bool {
+        self.leaves != Leaves::BehindSpecular && self.bin == 0
+    }
+}
+
+/// All directions, where there are no bins.
+impl From<Leaves> for Pass {
+    fn from(leaves: Leaves) -> Self {
+        Self { leaves, bin: 0 }
+    }
+}
+
 /// Pixels of one row that are cast together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Span {
@@ -38,10 +70,8 @@ pub struct Span {
     pub row: u32,
     /// The columns.
     pub columns: Range<u32>,
-    /// Which points seen in these pixels are gathered for.
-    pub leaves: Leaves,
-    /// False for a second visit to the same pixels.
-    pub first_pass: bool,
+    /// Which rays of these pixels are cast.
+    pub pass: Pass,
 }
 
 impl Generative {
@@ -52,29 +82,37 @@ impl Generative {
                 batch: row.into(),
                 row,
                 columns: 0..width,
-                leaves: Leaves::All,
-                first_pass: true,
+                pass: Leaves::All.into(),
             })),
-            Self::Tiled { tile } => {
-                let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
-                let tiles = (0..down).flat_map(move |y| (0..across).map(move |x| (x, y)));
-                Box::new((0..).zip(tiles).flat_map(move |(batch, (x, y))| {
-                    let columns = x * tile..(x.saturating_add(1)).saturating_mul(tile).min(width);
-                    let rows = y * tile..(y.saturating_add(1)).saturating_mul(tile).min(height);
-                    [Leaves::Direct, Leaves::BehindSpecular].into_iter().flat_map(move |leaves| {
-                        let columns = columns.clone();
-                        rows.clone().map(move |row| Span {
-                            batch,
-                            row,
-                            columns: columns.clone(),
-                            leaves,
-                            first_pass: leaves == Leaves::Direct,
-                        })
-                    })
-                }))
-            }
+            Self::Tiled { tile } => tiles(tile, 1, [width, height]),
+            Self::DirectionBinned { tile, bins } => tiles(tile, bins, [width, height]),
         }
     }
+
+    /// Number of bins that the hemisphere is divided into.
+    #[must_use]
+    pub const fn bins(self) -> u32 {
+        match self {
+            Self::Scanline | Self::Tiled { .. } => 1,
+            Self::DirectionBinned { bins, .. } => bins,
+        }
+    }
+}
+
+/// Tile by tile, with `bins` passes over each for what is seen directly and as many for the rest.
+fn tiles(tile: u32, bins: u32, [width, height]: [u32; 2]) -> Box<dyn Iterator<Item = Span>> {
+    let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
+    let tiles = (0..down).flat_map(move |y| (0..across).map(move |x| (x, y)));
+    Box::new((0..).zip(tiles).flat_map(move |(batch, (x, y))| {
+        let columns = x * tile..(x.saturating_add(1)).saturating_mul(tile).min(width);
+        let rows = y * tile..(y.saturating_add(1)).saturating_mul(tile).min(height);
+        let leaves = [Leaves::Direct, Leaves::BehindSpecular].into_iter();
+        let passes = leaves.flat_map(move |leaves| (0..bins).map(move |bin| Pass { leaves, bin }));
+        passes.flat_map(move |pass| {
+            let columns = columns.clone();
+            rows.clone().map(move |row| Span { batch, row, columns: columns.clone(), pass })
+        })
+    }))
 }
 
 impl fmt::Display for Generative {
@@ -82,6 +120,7 @@ impl fmt::Display for Generative {
         match self {
             Self::Scanline => f.write_str("scanline"),
             Self::Tiled { tile } => write!(f, "tiled {tile}x{tile}"),
+            Self::DirectionBinned { tile, bins } => write!(f, "direction-binned {tile}x{tile}, bins {bins}"),
         }
     }
 }
@@ -94,17 +133,28 @@ mod tests {
     #[test]
     fn every_pixel_is_visited_once_in_each_pass() {
         for size in [[1, 1], [7, 5], [16, 16], [33, 17]] {
-            for order in [Generative::Scanline, Generative::Tiled { tile: 1 }, Generative::Tiled { tile: 16 }] {
-                let mut visits: BTreeMap<(bool, u32, u32), u32> = BTreeMap::new();
+            for order in [
+                Generative::Scanline,
+                Generative::Tiled { tile: 1 },
+                Generative::Tiled { tile: 16 },
+                Generative::DirectionBinned { tile: 1, bins: 3 },
+                Generative::DirectionBinned { tile: 16, bins: 4 },
+                Generative::DirectionBinned { tile: u32::MAX, bins: 1 },
+            ] {
+                let mut visits: BTreeMap<(bool, u32, u32, u32), u32> = BTreeMap::new();
+                let mut first_visits = 0;
                 let mut last_batch = 0;
                 for span in order.spans(size) {
                     assert!(span.batch >= last_batch);
                     last_batch = span.batch;
+                    first_visits += if span.pass.is_first() { span.columns.len() } else { 0 };
                     for x in span.columns {
-                        *visits.entry((span.leaves == Leaves::BehindSpecular, span.row, x)).or_default() += 1;
+                        let specular = span.pass.leaves == Leaves::BehindSpecular;
+                        *visits.entry((specular, span.pass.bin, span.row, x)).or_default() += 1;
                     }
                 }
-                let passes = if order == Generative::Scanline { 1 } else { 2 };
+                assert_eq!(first_visits as u32, size[0] * size[1]);
+                let passes = if order == Generative::Scanline { 1 } else { 2 * order.bins() };
                 assert_eq!(visits.len() as u32, passes * size[0] * size[1], "{order} {size:?}");
                 assert!(visits.values().all(|&n| n == 1));
             }
@@ -115,9 +165,20 @@ mod tests {
     fn a_tile_is_finished_before_the_next_begins_and_specular_comes_last() {
         let spans: Vec<_> = Generative::Tiled { tile: 2 }.spans([4, 2]).collect();
         let order: Vec<_> =
-            spans.iter().map(|span| (span.batch, span.row, span.columns.start, span.first_pass)).collect();
+            spans.iter().map(|span| (span.batch, span.row, span.columns.start, span.pass.is_first())).collect();
         assert_eq!(order[..4], [(0, 0, 0, true), (0, 1, 0, true), (0, 0, 0, false), (0, 1, 0, false)]);
         assert_eq!(order[4], (1, 0, 2, true));
+    }
+
+    #[test]
+    fn a_bin_of_all_pixels_of_a_tile_comes_before_the_next_bin() {
+        let order = Generative::DirectionBinned { tile: 2, bins: 2 };
+        let passes: Vec<_> =
+            order.spans([4, 2]).map(|span| (span.batch, span.pass.leaves, span.pass.bin, span.row)).collect();
+        let (direct, behind) = (Leaves::Direct, Leaves::BehindSpecular);
+        assert_eq!(passes[..4], [(0, direct, 0, 0), (0, direct, 0, 1), (0, direct, 1, 0), (0, direct, 1, 1)]);
+        assert_eq!(passes[4..8], [(0, behind, 0, 0), (0, behind, 0, 1), (0, behind, 1, 0), (0, behind, 1, 1)]);
+        assert_eq!(passes[8], (1, direct, 0, 0));
     }
 
     #[test]

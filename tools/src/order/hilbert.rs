@@ -84,7 +84,7 @@ fn transpose(mut x: [[u32; LANES]; 3], bits: u32) -> [[u32; LANES]; 3] {
 }
 
 /// Ten bits, three places apart.
-const fn spread(bits: u32) -> u32 {
+pub(super) const fn spread(bits: u32) -> u32 {
     let mut x = bits & 0x3ff;
     x = (x | x << 16) & 0x0300_00ff;
     x = (x | x << 8) & 0x0300_f00f;

@@ -1,61 +1,132 @@
 //! Orders that sort by a key: all of a batch, or all of the image, has to be held.
 
+use super::charge::Charge;
+use super::cost::{Costs, Store};
+use super::external::Runs;
 use super::{Emit, Per, Reorder};
-use pm_formats::{BlockMeta, Number, Query};
+use pm_formats::{BLOCK_RECORDS, BlockMeta, Number, Query};
+use std::path::PathBuf;
+
+/// Memory of this machine that an order may use, and where it goes beyond.
+pub struct Limits {
+    /// Bytes of memory.
+    pub memory: u64,
+    /// Folder for temporary files.
+    pub folder: PathBuf,
+    /// Called when the first of them is made.
+    pub announce: Box<dyn Fn()>,
+}
+
+/// Bytes of memory for each query that is sorted: the record, and its key and place.
+const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u64>()) as u64;
 
 /// Sorts queries by a 32-bit key; equal keys keep the order in which they came.
 pub struct Sorted<K> {
     key: K,
     per: Per,
+    charge: Charge,
+    costs: Costs,
+    limits: Limits,
+    announced: bool,
     meta: Option<BlockMeta>,
     held: Vec<Query>,
-    peak: usize,
+    runs: Runs,
+    /// Queries of the batch in hand, in memory and on disk.
+    queries: u64,
 }
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
-    /// An order whose keys `key` computes, for many queries at once.
-    pub const fn new(per: Per, key: K) -> Self {
-        Self { key, per, meta: None, held: vec![], peak: 0 }
+    /// An order whose keys `key` computes, for many queries at once; `tables` are the bytes that this takes on chip.
+    pub fn new(per: Per, key: K, charge: Charge, store: Store, tables: u64, limits: Limits) -> Self {
+        let mut costs = Costs::new(store);
+        costs.tables(tables);
+        let runs = Runs::new(limits.folder.clone(), limits.memory);
+        Self { key, per, charge, costs, limits, announced: false, meta: None, held: vec![], runs, queries: 0 }
+    }
+
+    /// What is held in memory, sorted: keys, and places among the held.
+    fn sort_held(&mut self) -> Vec<u64> {
+        let keys = (self.key)(&self.held);
+        self.charge.came(&self.held, &keys);
+        assert!(keys.len() <= 1 << 32, "more than 2^32 queries cannot be sorted at once");
+        // Only (key, place) is sorted; each record moves once.
+        let mut places: Vec<u64> = (0u64..).zip(keys).map(|(place, key)| u64::from(key) << 32 | place).collect();
+        places.sort_unstable();
+        places
+    }
+
+    /// Moves what is held in memory to the disk.
+    fn spill_run(&mut self) -> pm_formats::Result<()> {
+        if !std::mem::replace(&mut self.announced, true) {
+            (self.limits.announce)();
+        }
+        let places = self.sort_held();
+        let held = &self.held;
+        self.runs.add(places.iter().map(|&place| ((place >> 32) as u32, held[(place & 0xffff_ffff) as usize])))?;
+        self.held.clear();
+        Ok(())
     }
 }
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
     fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let meta = match self.per {
-            Per::Batch => BlockMeta { records: 0, ..meta },
-            Per::Image => BlockMeta::default(),
-        };
+        let meta = self.per.batch_of(meta);
         if self.meta.is_some_and(|held| held != meta) {
             self.drain(emit)?;
         }
         self.meta = Some(meta);
-        self.held.extend_from_slice(queries);
-        self.peak = self.peak.max(self.held.len());
+        self.queries += queries.len() as u64;
+        let most = (self.limits.memory / BYTES_A_QUERY).clamp(1, 1 << 32) as usize;
+        let mut rest = queries;
+        while !rest.is_empty() {
+            if self.held.len() == most {
+                self.spill_run()?;
+            }
+            let (now, later) = rest.split_at(rest.len().min(most - self.held.len()));
+            self.held.extend_from_slice(now);
+            rest = later;
+        }
         Ok(())
     }
 
     fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
         let Some(meta) = self.meta.take() else { return Ok(()) };
-        // Only (key, place) is sorted; each record moves once.
-        let keys = (self.key)(&self.held);
-        let mut places: Vec<u64> = (0u64..).zip(keys).map(|(place, key)| u64::from(key) << 32 | place).collect();
-        assert!(places.len() <= 1 << 32, "more than 2^32 queries cannot be sorted at once");
-        places.sort_unstable();
-        let mut out = Vec::with_capacity(places.len().min(pm_formats::BLOCK_RECORDS));
-        for chunk in places.chunks(pm_formats::BLOCK_RECORDS) {
-            out.clear();
-            out.extend(chunk.iter().map(|&place| self.held[(place & 0xffff_ffff) as usize]));
+        let n = std::mem::take(&mut self.queries);
+        let mut out = Vec::with_capacity(BLOCK_RECORDS);
+        if self.runs.is_empty() {
+            let places = self.sort_held();
+            self.charge.all_came(n, &self.costs);
+            for chunk in places.chunks(BLOCK_RECORDS) {
+                out.clear();
+                for &place in chunk {
+                    self.charge.left((place >> 32) as u32);
+                    out.push(self.held[(place & 0xffff_ffff) as usize]);
+                }
+                emit(meta, &out)?;
+            }
+            self.held.clear();
+        } else {
+            self.spill_run()?;
+            // Its place is needed for the buffers.
+            self.held = vec![];
+            self.charge.all_came(n, &self.costs);
+            let charge = &mut self.charge;
+            self.runs.drain(|key, query| {
+                charge.left(key);
+                out.push(query);
+                if out.len() == BLOCK_RECORDS {
+                    emit(meta, &out)?;
+                    out.clear();
+                }
+                Ok(())
+            })?;
             emit(meta, &out)?;
         }
-        self.held.clear();
+        self.charge.all_left(n, &mut self.costs);
         Ok(())
     }
 
     fn measures(&self) -> Vec<(String, Number)> {
-        let peak = self.peak as u64;
-        vec![
-            ("peak_queries_held".into(), Number::Count(peak)),
-            ("storage".into(), Number::Bytes(peak * size_of::<Query>() as u64)),
-        ]
+        self.costs.measures()
     }
 }

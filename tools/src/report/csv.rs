@@ -29,6 +29,7 @@ fn line<'a>(out: &mut dyn Write, fields: impl Iterator<Item = Cow<'a, str>>) -> 
 fn field(value: &Value) -> Cow<'_, str> {
     match value {
         Value::Int(n) => n.to_string().into(),
+        Value::Signed(n) => n.to_string().into(),
         // The shortest digits that read back as the same number.
         Value::Float(x, _) if x.is_finite() => format!("{x:?}").into(),
         Value::Float(..) => "".into(),

@@ -22,6 +22,7 @@ impl Serialize for Row<'_> {
         for (column, value) in self.0.iter().zip(self.1) {
             match value {
                 Value::Int(n) => map.serialize_entry(&column.name, n)?,
+                Value::Signed(n) => map.serialize_entry(&column.name, n)?,
                 // Not finite becomes `null`.
                 Value::Float(x, _) => map.serialize_entry(&column.name, x)?,
                 Value::Text(text) => map.serialize_entry(&column.name, text)?,

@@ -42,6 +42,7 @@ fn head(name: &str) -> (String, String) {
 fn cell(value: &Value) -> String {
     match value {
         Value::Int(n) => n.to_string(),
+        Value::Signed(n) => n.to_string(),
         Value::Float(x, digits) => float(*x, *digits),
         Value::Text(text) => printable(text),
     }

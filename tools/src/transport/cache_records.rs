@@ -122,10 +122,17 @@ impl CacheRecords {
         }
     }
 
-    /// Casts the gather rays of a record and gives its queries to `query`.
-    pub fn gather(&self, rays: &GatherRays<'_>, id: u32, mut query: impl FnMut(Query), counts: &mut RayCounts) {
+    /// Casts gather rays of a record, those of the strata given, and gives its queries to `query`.
+    pub fn gather(
+        &self,
+        rays: &GatherRays<'_>,
+        id: u32,
+        strata: &[u32],
+        mut query: impl FnMut(Query),
+        counts: &mut RayCounts,
+    ) {
         let point = &self.origins[id as usize].point;
-        for sample in 0..rays.gathers() {
+        for &sample in strata {
             counts.gather += 1;
             match rays.record_ray(point, id, sample, &mut |_| {}, counts) {
                 Some(end) => {

@@ -5,17 +5,18 @@
 use super::Purpose;
 use super::cache_records::CacheRecords;
 use super::eye::{Eye, Leaf, choose};
+use super::guide::Guide;
 use super::lights::Lights;
 use super::photon_paths::patience;
 use super::reflection::{Reflection, Spread, spread_shares};
 use super::sampling::{cosine_direction, grid};
 use super::scatter::specular;
 use super::surface::{Stage, SurfacePoint};
-use crate::order::Leaves;
+use crate::order::{Leaves, Pass};
 use crate::random::Random;
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
-use pm_formats::Query;
+use pm_formats::{Photon, Query};
 
 /// How queries are made.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,8 @@ pub struct RayCounts {
     pub gather_lost: u64,
     /// Gather rays that were too short and were continued.
     pub gather_continued: u64,
+    /// Points seen whose gather rays were guided by photons.
+    pub guided: u64,
 }
 
 impl std::ops::AddAssign for RayCounts {
@@ -82,6 +85,7 @@ impl std::ops::AddAssign for RayCounts {
         self.gather += other.gather;
         self.gather_lost += other.gather_lost;
         self.gather_continued += other.gather_continued;
+        self.guided += other.guided;
     }
 }
 
@@ -92,6 +96,9 @@ pub struct GatherRays<'a> {
     eye: Eye,
     options: GatherOptions,
     strata: (u32, u32),
+    /// The strata of each bin of the hemisphere, in raster order.
+    bins: Vec<Vec<u32>>,
+    guide: Option<Guide>,
 }
 
 /// Where a gather ray ends.
@@ -111,7 +118,39 @@ impl<'a> GatherRays<'a> {
     pub fn new(scene: &'a Scene, camera: Camera, options: GatherOptions) -> Self {
         let strata = grid(options.gathers.max(1));
         let eye = Eye { camera, seed: options.seed, samples: options.samples.max(1) };
-        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata }
+        let bins = vec![(0..options.gathers).collect()];
+        Self { stage: Stage::new(scene), lights: Lights::new(scene), eye, options, strata, bins, guide: None }
+    }
+
+    /// Divides the hemisphere into bins, a grid in elevation and azimuth like the strata, for orders with a pass for each.
+    /// A stratum belongs to the bin that holds its lower corner, so some bins are empty if there are more than strata.
+    #[must_use]
+    pub fn with_bins(mut self, bins: u32) -> Self {
+        let (rows, columns) = self.strata;
+        let (bin_rows, bin_columns) = grid(bins.max(1));
+        self.bins = vec![vec![]; bins.max(1) as usize];
+        for stratum in 0..self.options.gathers {
+            let part = |at: u32, of: u32, bins: u32| u64::from(at) * u64::from(bins) / u64::from(of);
+            let row = part(stratum / columns, rows, bin_rows);
+            let column = part(stratum % columns, columns, bin_columns);
+            self.bins[(row * u64::from(bin_columns) + column) as usize].push(stratum);
+        }
+        self
+    }
+
+    /// The same rays, but sent more often to where photons come from, and weighing less for it: for [`Spread::Cosine`].
+    /// Where there are too few photons nothing changes; photons straight from a lamp do not count. Not for records of
+    /// cached irradiance, whose gradients are made for even strata.
+    #[must_use]
+    pub fn guided_by(self, photons: &[Photon]) -> Self {
+        let guide = Guide::new(&self.stage, photons);
+        Self { guide: Some(guide), ..self }
+    }
+
+    /// Number of photons that guide the rays.
+    #[must_use]
+    pub fn guiding_photons(&self) -> usize {
+        self.guide.as_ref().map_or(0, Guide::len)
     }
 
     /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
@@ -121,18 +160,22 @@ impl<'a> GatherRays<'a> {
     ///
     /// With cached irradiance the points that it serves are not gathered for; the records that were placed at this pixel
     /// are.
+    ///
+    /// `pass` tells which of the rays are wanted now; light that needs no gather ray comes with a pixel's first bin.
     pub fn pixel(
         &self,
         [x, y]: [u32; 2],
-        leaves: Leaves,
+        pass: impl Into<Pass>,
         cache: Option<&CacheRecords>,
         mut query: impl FnMut(Query),
         mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
         let pixel = y * self.eye.camera.size()[0] + x;
-        // Light seen by eye belongs to the pass that visits every pixel.
-        let first_pass = leaves != Leaves::BehindSpecular;
+        let pass = pass.into();
+        let Pass { leaves, bin } = pass;
+        // Light seen by eye belongs to the first of the passes that visit every pixel.
+        let first_pass = pass.is_first();
         let mut found = vec![];
         let mut eye_light = |radiance: Vec3| {
             if first_pass {
@@ -150,21 +193,25 @@ impl<'a> GatherRays<'a> {
         };
         for leaf in &found {
             if wanted(leaf.behind_specular) {
-                counts.seen += 1;
+                counts.seen += u64::from(bin == 0);
                 match self.options.method {
                     Method::FinalGather if cache.is_some() && self.caches(leaf) => {
-                        self.direct_light(pixel, leaf, &mut light);
+                        if bin == 0 {
+                            self.direct_light(pixel, leaf, &mut light);
+                        }
                     }
-                    Method::FinalGather => self.gather(pixel, leaf, &mut query, &mut light, counts),
+                    Method::FinalGather => self.gather(pixel, leaf, bin, &mut query, &mut light, counts),
                     Method::DirectVisualisation => {
-                        query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
+                        if bin == 0 {
+                            query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
+                        }
                     }
                 }
             }
         }
         if let Some(cache) = cache {
             for (record, _) in cache.of_pixel(pixel).filter(|&(_, behind_specular)| wanted(behind_specular)) {
-                cache.gather(self, record, &mut query, counts);
+                cache.gather(self, record, &self.bins[bin as usize], &mut query, counts);
             }
         }
     }
@@ -181,11 +228,12 @@ impl<'a> GatherRays<'a> {
         }
     }
 
-    /// Casts the gather rays of one point seen.
+    /// Casts the gather rays of one point seen that belong to a bin.
     fn gather(
         &self,
         pixel: u32,
         leaf: &Leaf,
+        bin: u32,
         query: &mut impl FnMut(Query),
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
@@ -193,8 +241,12 @@ impl<'a> GatherRays<'a> {
         let GatherOptions { gathers, seed, spread, .. } = self.options;
         let (point, number) = (&leaf.point, leaf.number);
         let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
-        self.direct_light(pixel, leaf, light);
-        let mut strata: Vec<u32> = (0..gathers).collect();
+        let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
+        if bin == 0 {
+            self.direct_light(pixel, leaf, light);
+            counts.guided += u64::from(guide.is_some());
+        }
+        let mut strata = self.bins[bin as usize].clone();
         if self.options.strata == Strata::Shuffled {
             let key = |stratum: &u32| {
                 Random::new(&[seed, Purpose::StrataOrder as u64, pixel.into(), number.into(), (*stratum).into()])
@@ -210,11 +262,12 @@ impl<'a> GatherRays<'a> {
             let u = ((stratum / columns) as f32 + random.unit()) / rows as f32;
             let v = ((stratum % columns) as f32 + random.unit()) / columns as f32;
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-            let end = reflection.sample(spread, u.min(1.0), v, random).and_then(|(direction, weight)| {
-                let share = leaf.share * weight / gathers as f32;
-                let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
-                self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
-            });
+            let end =
+                reflection.sample(spread, guide.as_ref(), u.min(1.0), v, random).and_then(|(direction, weight)| {
+                    let share = leaf.share * weight / gathers as f32;
+                    let key = [seed, Purpose::LightAtShortEnd as u64, u64::from(pixel), u64::from(sample)];
+                    self.cast(point, direction, share, light, random, &mut Random::new(&key), counts)
+                });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
                 None => counts.gather_lost += 1,
@@ -260,7 +313,7 @@ impl<'a> GatherRays<'a> {
             light(end.weight * self.lights.reflected(&self.stage, &end.point, 1, for_light, brdf));
         }
         let (u, v) = (random.unit(), random.unit());
-        let (direction, weight) = reflection.sample(Spread::Cosine, u, v, random)?;
+        let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         self.follow(&end.point, direction, end.weight * weight, true, light, random)
     }
 

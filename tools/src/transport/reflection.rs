@@ -1,5 +1,6 @@
 //! How a surface spreads light over many directions: Lambert, and Phong's lobe where it is glossy.
 
+use super::guide::Directions;
 use super::sampling::{cosine_direction, phong_direction, uniform_direction};
 use crate::random::Random;
 use crate::scene::{Material, MaterialKind};
@@ -76,11 +77,24 @@ impl Reflection {
     ///
     /// At a glossy surface one of the two parts is chosen at random in proportion to its share, but the density is that
     /// of both together: the balance heuristic of Veach and Guibas, *Optimally Combining Sampling Techniques for Monte
-    /// Carlo Rendering*, SIGGRAPH 1995.
-    pub(super) fn sample(&self, spread: Spread, u: f32, v: f32, random: &mut Random) -> Option<(Vec3, Vec3)> {
+    /// Carlo Rendering*, SIGGRAPH 1995. A guide takes the place of the cosine.
+    pub(super) fn sample(
+        &self,
+        spread: Spread,
+        guide: Option<&Directions>,
+        u: f32,
+        v: f32,
+        random: &mut Random,
+    ) -> Option<(Vec3, Vec3)> {
         let (diffuse, specular) = (self.diffuse.max_element(), self.specular.max_element());
         if specular <= 0.0 && spread == Spread::Cosine {
-            return Some((cosine_direction(self.normal, u, v), self.diffuse));
+            return Some(match guide {
+                None => (cosine_direction(self.normal, u, v), self.diffuse),
+                Some(guide) => {
+                    let (direction, density) = guide.sample(u, v);
+                    (direction, self.diffuse / density)
+                }
+            });
         }
         let total = diffuse + specular;
         let direction = if specular > 0.0 && random.unit() * total >= diffuse {
@@ -88,13 +102,17 @@ impl Reflection {
         } else if spread == Spread::Uniform {
             uniform_direction(self.normal, u, v)
         } else {
-            cosine_direction(self.normal, u, v)
+            guide.map_or_else(|| cosine_direction(self.normal, u, v), |guide| guide.sample(u, v).0)
         };
         let cosine = direction.dot(self.normal);
         if cosine <= 0.0 {
             return None;
         }
-        let broad = if spread == Spread::Uniform { 1.0 / (2.0 * PI) } else { cosine / PI };
+        let broad = match (spread, guide) {
+            (Spread::Uniform, _) => 1.0 / (2.0 * PI),
+            (Spread::Cosine, None) => cosine / PI,
+            (Spread::Cosine, Some(guide)) => guide.density(direction) * cosine / PI,
+        };
         let narrow = if specular > 0.0 { (self.exponent + 1.0) / (2.0 * PI) * self.lobe(direction) } else { 0.0 };
         let density = (diffuse * broad + specular * narrow) / total;
         Some((direction, self.brdf(direction) * (cosine / density)))
@@ -151,7 +169,8 @@ mod tests {
                 let (mut both, mut lobe) = (Vec3::ZERO, Vec3::ZERO);
                 for _ in 0..n {
                     let (u, v) = (random.unit(), random.unit());
-                    both += reflection.sample(spread, u, v, &mut random).map_or(Vec3::ZERO, |(_, w)| w) / n as f32;
+                    both +=
+                        reflection.sample(spread, None, u, v, &mut random).map_or(Vec3::ZERO, |(_, w)| w) / n as f32;
                     lobe += reflection.sample_lobe(u, v).map_or(Vec3::ZERO, |(_, w)| w) / n as f32;
                 }
                 assert!(both.distance(expected) < 0.01, "{exponent} {tilt} {spread:?}: {both} for {expected}");

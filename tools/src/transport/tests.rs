@@ -7,12 +7,12 @@ use crate::scene::{Camera, CameraOverrides, LoadOptions, Scene};
 use glam::{DVec3, Vec3};
 use std::path::{Path, PathBuf};
 
-fn shipped(name: &str) -> (Scene, PathBuf) {
+pub(super) fn shipped(name: &str) -> (Scene, PathBuf) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     (Scene::load(std::slice::from_ref(&path), &LoadOptions::default()).unwrap(), path)
 }
 
-fn written(obj: &str, mtl: &str) -> Scene {
+pub(super) fn written(obj: &str, mtl: &str) -> Scene {
     written_with(obj, mtl, &LoadOptions::default())
 }
 
@@ -24,7 +24,7 @@ fn written_with(obj: &str, mtl: &str, options: &LoadOptions) -> Scene {
 }
 
 /// A box from `min` to `max` of one material, its faces turned outward or inward.
-fn cuboid(first_vertex: usize, min: f32, max: f32, material: &str, outward: bool) -> String {
+pub(super) fn cuboid(first_vertex: usize, min: f32, max: f32, material: &str, outward: bool) -> String {
     let mut text = String::new();
     for i in 0..8 {
         let side = |bit: usize| if i >> bit & 1 == 1 { max } else { min };
@@ -259,7 +259,7 @@ fn rays(scene: &Scene, path: &Path, gathers: u32, strata: Strata) -> (Vec<pm_for
     rays_with(scene, camera, GatherOptions { gathers, strata, ..OPTIONS })
 }
 
-const OPTIONS: GatherOptions = GatherOptions {
+pub(super) const OPTIONS: GatherOptions = GatherOptions {
     method: Method::FinalGather,
     samples: 1,
     gathers: 1,

@@ -1,0 +1,38 @@
+# make charts-cache: what each order makes of caches of any size, of few ways, and of many searches in flight.
+
+CHART_ORDERS := scanline tiled binned binned-hashed tiled-hilbert hashed hilbert morton leaf random partition snowplow
+CHART_SCENE := --size 96x96
+
+charts-cache: out/charts/sizes.svg out/charts/ways.svg out/charts/lanes.svg ## Fetches of every order against size, ways, lanes (-j2: 6 minutes)
+
+out/charts/map.pmp: | programs
+	mkdir -p $(@D)
+	$(LAUNCH) $(BIN)/pm-photons -n 450000 -t $(THREADS) -o $@
+
+out/charts/%.pmt: out/charts/map.pmp
+	$(LAUNCH) sh -c '$(call ORDER_$*,$(CHART_SCENE),$<,) | $(BIN)/pm-gather $< -t $(THREADS) -o $@'
+
+out/charts/%.sizes: out/charts/%.pmt
+	$(LAUNCH) $(BIN)/pm-cachesim --curve --sizes 4K..16M --format csv $< > $@
+
+out/charts/%.ways: out/charts/%.pmt
+	$(LAUNCH) $(BIN)/pm-cachesim --ways 1,2,4,8,16,full --format csv $< > $@
+
+out/charts/%.lanes: out/charts/%.pmt
+	$(LAUNCH) $(BIN)/pm-cachesim --lanes 1,4,16,64 --format csv $< > $@
+
+out/charts/%.csv: $(CHART_ORDERS:%=out/charts/%.sizes) $(CHART_ORDERS:%=out/charts/%.ways) $(CHART_ORDERS:%=out/charts/%.lanes)
+	$(JOIN) $(CHART_ORDERS:%=out/charts/%.$*) > $@
+
+CHART = $(BIN)/pm-chart $< -y fetches_per_query --by order --y-scale log10 -o $@
+
+out/charts/sizes.svg: out/charts/sizes.csv
+	$(CHART) -x cache_bytes --title 'Fetches per query and size of a fully associative LRU cache with lines of 128 bytes'
+
+out/charts/ways.svg: out/charts/ways.csv
+	$(CHART) -x ways --title 'Fetches per query and ways of a cache of 128 KiB'
+
+out/charts/lanes.svg: out/charts/lanes.csv
+	$(CHART) -x lanes --x-scale log2 --title 'Fetches per query and searches in flight over one cache of 128 KiB'
+
+.PRECIOUS: out/charts/%.pmt out/charts/%.sizes out/charts/%.ways out/charts/%.lanes out/charts/%.csv

@@ -1,0 +1,234 @@
+//! Do traces of other simulators come in and go out, with the counts that they must have?
+
+use crate::support::{Folder, same_text};
+use pm_formats::trace::{Access, AccessKind, BlockEncoder, Coding, TraceWriter, lay_out};
+use pm_formats::{BlockMeta, Header};
+use std::collections::BTreeMap;
+
+/// Columns of the first row of CSV, by name; quoted fields keep their commas.
+fn row(csv: &str) -> BTreeMap<String, String> {
+    let mut lines = csv.lines().map(|line| {
+        let (mut fields, mut quoted) = (vec![String::new()], false);
+        for letter in line.chars() {
+            match letter {
+                '"' => quoted = !quoted,
+                ',' if !quoted => fields.push(String::new()),
+                _ => fields.last_mut().unwrap().push(letter),
+            }
+        }
+        fields
+    });
+    let (names, values) = (lines.next().expect("names"), lines.next().expect("a row"));
+    names.into_iter().zip(values).collect()
+}
+
+const CACHES: [&str; 4] = ["2K,full,64,lru", "2K,4,64,lru", "2K,1,64,lru", "16K,8,64,lru"];
+
+/// What each cache counts, in these columns.
+fn counts(folder: &Folder, arguments: &str, columns: &[&str]) -> Vec<Vec<String>> {
+    let count = |cache: &&str| {
+        let csv = folder.run(&format!("pm-cachesim --format csv --cache {cache} {arguments}")).ok();
+        let row = row(csv.text());
+        columns.iter().map(|column| row[*column].clone()).collect()
+    };
+    CACHES.iter().map(count).collect()
+}
+
+/// A trace of all kinds of accesses, of many lengths, in regions that lie apart.
+fn mixed_trace() -> Vec<u8> {
+    let mut header = Header::empty();
+    header.regions = lay_out([("a".into(), 9000, 20, Coding::Records), ("b".into(), 100_000, 1, Coding::Records)]);
+    header.regions[1].base += 1 << 28;
+    let mut random = 1u64;
+    let mut below = |n: u64| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) % n
+    };
+    let mut writer = TraceWriter::new(vec![], &header).unwrap();
+    for _ in 0..3 {
+        let mut encoder = BlockEncoder::new(&header.regions);
+        for pixel in 0..200 {
+            encoder.begin(&[pixel]);
+            let start = below(90_000);
+            for _ in 0..below(40) {
+                let kind = [AccessKind::Read, AccessKind::Write, AccessKind::ReadModifyWrite][below(3) as usize];
+                let (region, offset) = if below(2) == 0 { (0, below(8800)) } else { (1, start + below(2000)) };
+                encoder.access(Access { kind, region, len: 1 + below(150) as u32, offset });
+            }
+            encoder.end();
+        }
+        let (block, tally) = encoder.finish(BlockMeta::default()).unwrap();
+        writer.write(&block, tally).unwrap();
+    }
+    writer.finish(vec![]).unwrap()
+}
+
+#[test]
+fn what_is_exported_has_the_counts_of_the_trace() {
+    let folder = Folder::new();
+    folder.write("t.pmt", mixed_trace());
+    let all = ["reads", "raw_bytes", "accesses", "fetches", "bytes_fetched", "bytes_written_back", "compulsory"];
+    let lines = ["fetches", "bytes_fetched", "bytes_written_back", "compulsory"];
+    let fetched = ["fetches", "bytes_fetched", "compulsory"];
+    let expected = |columns: &[&str]| counts(&folder, "t.pmt", columns);
+    // Everything, where the form says everything; it tells itself.
+    for form in ["lackey", "csv"] {
+        folder.run(&format!("pm-view --export {form} t.pmt -o t.{form}")).ok();
+        assert_eq!(counts(&folder, &format!("t.{form}"), &all), expected(&all), "{form}");
+    }
+    // A modify is a read and then a write: one more access, nothing else. Without sizes, lines; without kinds, fetches.
+    for (form, export, import, columns) in [
+        ("xdin", "", "", &lines[..]),
+        ("dinb", "", "--input dinb", &lines),
+        ("xdin", "--line 64", "", &lines),
+        ("din", "--line 64", "", &lines),
+        ("dramsim3", "--line 64", "", &lines),
+        ("ramulator2", "--line 64", "", &lines),
+        ("raw32", "--line 64", "--input raw32", &fetched),
+        ("raw64", "--line 64", "--input raw64", &fetched),
+        ("oracleGeneral", "--line 64", "--input oracleGeneral", &fetched),
+    ] {
+        folder.run(&format!("pm-view --export {form} {export} t.pmt -o t.out")).ok();
+        assert_eq!(counts(&folder, &format!("{import} t.out"), columns), expected(columns), "{form} {export}");
+    }
+    // Per query there is nothing, and the row says what was read.
+    let csv = folder.run("pm-cachesim --format csv t.lackey").ok();
+    let row = row(csv.text());
+    assert_eq!((&*row["order"], &*row["queries"], &*row["fetches_per_query"]), ("lackey", "0", ""));
+}
+
+#[test]
+fn exports_of_a_gathered_trace_and_pipes() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
+    let columns = ["reads", "raw_bytes", "accesses", "fetches", "compulsory"];
+    let expected = counts(&folder, "t.pmt", &columns);
+    // All records are of 20 bytes, so that bare addresses will do.
+    folder.run("pm-view --export raw64 t.pmt -o t.raw").ok();
+    assert_eq!(counts(&folder, "--input raw64 --access-size 20 t.raw", &columns), expected);
+    let piped = folder.sh("pm-view --export csv t.pmt | pm-cachesim --format csv --cache 2K,full,64,lru").ok();
+    assert_eq!(row(piped.text())["fetches"], expected[0][3]);
+    folder.sh("gzip -c t.pmt > t.gz && pm-cachesim t.gz > a && pm-cachesim t.pmt > b && cmp a b").ok();
+}
+
+#[test]
+fn faults_are_one_line_and_leave_nothing() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
+    folder.write("bad.din", "0 10\n0 xyz\n");
+    let fault = folder.run("pm-cachesim bad.din");
+    same_text("fault", "pm-cachesim: bad.din: line 2: `xyz` is no hexadecimal number", fault.fails(3));
+    assert!(fault.stdout.is_empty());
+    folder.write("t.raw", [1, 2, 3, 4, 5, 6, 7, 8]);
+    assert!(folder.run("pm-cachesim t.raw").fails(3).contains("--input"));
+    assert!(folder.run("pm-cachesim --input raw64 --cache 64,full,64,lru t.raw").ok().text().contains("raw64"));
+    assert!(
+        folder.run("pm-cachesim --input oracleGeneral t.raw").fails(3).contains("record 1: the input ends after 8")
+    );
+    // A stream of ours with damage stays one, whatever it could be taken for.
+    let mut trace = folder.read("t.pmt");
+    trace[0] ^= 0x80;
+    folder.write("damaged.pmt", &trace);
+    let _ = folder.run("pm-cachesim damaged.pmt").fails(3);
+    folder.sh("gzip -c t.pmt | head -c 3000 > cut.gz").ok();
+    assert!(folder.run("pm-cachesim cut.gz").fails(3).contains("compressed input (gzip) is damaged"));
+    let _ = folder.run("pm-cachesim nosuch.din").fails(1);
+    let _ = folder.run("pm-cachesim --columns address --input din bad.din").fails(2);
+    let _ = folder.run("pm-cachesim --lanes 2 --input raw64 t.raw").fails(2);
+    let _ = folder.run("pm-view --export din --line 48 t.pmt").fails(2);
+    let _ = folder.run("pm-view --export din t.pmt t.pmt").fails(2);
+    let _ = folder.run("pm-view --export din map.pmp -o out.din").fails(3);
+    assert!(!folder.names().contains(&"out.din".to_owned()));
+}
+
+#[test]
+fn one_lane_is_the_plain_run_and_several_are_as_many_rows() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
+    let print = |options: &str| {
+        let line = format!("pm-cachesim --sizes 2K,8K --ways full,4 --lines 64 --format csv {options} t.pmt");
+        folder.run(&line).ok().text().to_owned()
+    };
+    let plain = print("");
+    assert_eq!(print("--lanes 1"), plain);
+    assert_eq!(print("--lanes 1 --lanes-from parts"), plain);
+    for from in ["stream", "parts"] {
+        let several = print(&format!("--lanes 1,4,16 --lanes-from {from}"));
+        let lines: Vec<&str> = several.lines().collect();
+        assert_eq!(lines.len(), 1 + 3 * 4);
+        assert_eq!(lines[..5], plain.lines().collect::<Vec<_>>()[..]);
+        assert_eq!(lines[5..], print(&format!("--lanes 4,16 --lanes-from {from}")).lines().collect::<Vec<_>>()[1..]);
+        // The searches are the same, so are reads and distinct lines; what is fetched is not.
+        let of = |line: &str, name: &str| row(&format!("{}\n{line}", lines[0]))[name].clone();
+        for (one, sixteen) in lines[1..5].iter().zip(&lines[9..]) {
+            for name in ["queries", "reads", "accesses", "compulsory", "cache"] {
+                assert_eq!(of(one, name), of(sixteen, name), "{name}");
+            }
+            assert_eq!((of(one, "lanes"), of(sixteen, "lanes")), ("1".into(), "16".into()));
+            assert_ne!(of(one, "fetches"), of(sixteen, "fetches"));
+        }
+    }
+    assert!(folder.run("pm-cachesim --lanes 1,4 t.pmt").ok().text().contains("lanes"));
+    assert!(!folder.run("pm-cachesim t.pmt").ok().text().contains("lanes"));
+    assert_eq!(folder.run("pm-cachesim --lanes 0 t.pmt").code, 2);
+}
+
+/// What `valgrind --tool=cachegrind --cache-sim=yes --D1=BYTES,WAYS,LINE` (3.19) says of the program in `data/sum.c`:
+/// our name of the cache, and data misses. `data/README.md` has the commands.
+const CACHEGRIND: [(&str, u64); 6] = [
+    ("8K,2,64,lru", 1538),
+    ("16K,4,64,lru", 883),
+    ("32K,8,64,lru", 629),
+    ("2K,full,64,lru", 5286),
+    ("1K,1,32,lru", 10_305),
+    ("512,2,128,lru", 8949),
+];
+/// Data references of the same run.
+const REFERENCES: u64 = 86_004;
+
+#[test]
+fn a_real_program_misses_as_often_as_cachegrind_says() {
+    let folder = Folder::new();
+    folder.write("sum.lackey.zst", include_bytes!("data/sum.lackey.zst"));
+    let mut equal = 0;
+    for (cache, misses) in CACHEGRIND {
+        let csv = folder.run(&format!("pm-cachesim -q --format csv --cache {cache} sum.lackey.zst")).ok();
+        let row = row(csv.text());
+        let count = |name: &str| row[name].parse::<u64>().unwrap();
+        // An access over the end of a line is two for us; cachegrind counts one, and at most one miss.
+        let spanning = count("accesses") - REFERENCES;
+        let more = count("fetches").checked_sub(misses).expect("no fewer than cachegrind");
+        assert!(more <= spanning, "{cache}: {more} more, {spanning} accesses span lines");
+        equal += u32::from(more == 0);
+    }
+    assert_eq!(equal, 4);
+    // Instructions are left out, and said.
+    let all = folder.run("pm-cachesim --cache 8K,2,64,lru sum.lackey.zst");
+    same_text("remark", "pm-cachesim: sum.lackey.zst: 340560 instructions left out (--references all)\n", &all.stderr);
+}
+
+/// Needs python3 with pycachesim; `PYTHON` names the interpreter.
+#[test]
+#[ignore = "needs python3 with the package pycachesim"]
+fn counts_equal_those_of_pycachesim() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
+    folder.write("mixed.pmt", mixed_trace());
+    let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".into());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../scripts/pycachesim_counts.py");
+    // What is last used in a set after a store is another matter there, so stores meet one way only.
+    for (trace, cache, sets, ways, line) in [
+        ("t.pmt", "2K,full,64,lru", 1, 32, 64),
+        ("t.pmt", "4K,8,64,lru", 8, 8, 64),
+        ("t.pmt", "8K,2,32,lru", 128, 2, 32),
+        ("t.pmt", "4K,1,128,lru", 32, 1, 128),
+        ("mixed.pmt", "8K,1,32,lru", 256, 1, 32),
+        ("mixed.pmt", "64K,1,128,lru", 512, 1, 128),
+    ] {
+        let theirs = folder.sh(&format!("pm-view --export xdin {trace} | {python} {script} {sets} {ways} {line}")).ok();
+        let csv = folder.run(&format!("pm-cachesim --format csv --cache {cache} {trace}")).ok();
+        let row = row(csv.text());
+        let written = row["bytes_written_back"].parse::<u64>().unwrap() / line;
+        assert_eq!(theirs.text().trim(), format!("{} {written}", row["fetches"]), "{trace} {cache}");
+    }
+}

@@ -1,0 +1,92 @@
+//! Do the pictures of `pm-gather` say where they come from, and does exposure brighten previews alone?
+
+use crate::support::{Folder, same_bytes};
+use pm_tools::image::{Description, Picture};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// The comments of an EXR file, line by line.
+fn comments(folder: &Folder, name: &str) -> Vec<String> {
+    let description = Description::read(&folder.path(name)).unwrap();
+    let comments = description.attributes.into_iter().find(|(name, _)| name == "comments").expect("comments");
+    comments.1.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn an_exr_picture_says_how_it_was_made() {
+    let folder = Folder::with_streams();
+    let run = |options: &str, name: &str| {
+        folder.run(&format!("pm-gather map.pmp q.pmq {options} --no-trace --image {name}")).ok();
+        comments(&folder, name)
+    };
+    let plain = run("-k 37", "a.exr");
+    // Of the photons their history; of the queries number and digest, which are the same in every order.
+    let checked = |name: &str| {
+        let line = folder.run(&format!("pm-view --check {name}")).ok().text().to_owned();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        format!("{}, digest {}", words[2], words.last().expect("a digest"))
+    };
+    for expected in [
+        "photonmap.k = 37".to_owned(),
+        "photonmap.estimator = Unbiased".to_owned(),
+        "photonmap.kernel = Constant".to_owned(),
+        "photonmap.edges = Cut".to_owned(),
+        "photonmap.gathers = 4".to_owned(),
+        "photonmap.history = pm-photons -n 2000".to_owned(),
+        format!("photonmap.photons = {}", checked("map.pmp")),
+        format!("photonmap.queries = {}", checked("q.pmq")),
+    ] {
+        assert!(plain.contains(&expected), "{expected}\n{plain:#?}");
+    }
+    assert!(!plain.iter().any(|line| line.starts_with("photonmap.precomputed")), "{plain:#?}");
+    let other = run("-k 37 --estimator classic --kernel cone --edges ignored --precomputed", "b.exr");
+    for expected in [
+        "photonmap.estimator = Classic",
+        "photonmap.kernel = Cone",
+        "photonmap.edges = Ignored",
+        "photonmap.precomputed = at 1 of 4 photons",
+    ] {
+        assert!(other.iter().any(|line| line == expected), "{expected}\n{other:#?}");
+    }
+}
+
+#[test]
+fn equal_runs_give_equal_bytes() {
+    let folder = Folder::with_streams();
+    let run = |name: &str| {
+        folder.run(&format!("pm-gather map.pmp q.pmq --no-trace --image {name}.exr --image {name}.png -q")).ok();
+        [folder.read(&format!("{name}.exr")), folder.read(&format!("{name}.png"))]
+    };
+    for (first, second) in run("one").iter().zip(&run("two")) {
+        same_bytes("the same again", first, second);
+    }
+}
+
+/// Bytes of the pixels of a PNG file.
+fn png_pixels(path: &Path) -> Vec<u8> {
+    let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a small picture")];
+    reader.next_frame(&mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn exposure_doubles_the_light_of_previews_alone() {
+    let folder = Folder::with_streams();
+    // No photon counts, so that the picture is its base: half, once and twice the linear value whose sRGB byte is 128.
+    let middle = 0.215_861;
+    let pixels = (0..16 * 12).map(|i| [[0.5, 1.0, 2.0][i % 3] * middle; 3]).collect();
+    let (mut bytes, base) = (vec![], Picture { size: [16, 12], pixels });
+    base.write(Path::new("base.exr"), &mut bytes, &[]).unwrap();
+    folder.write("base.exr", bytes);
+    // From the standard's curve, 255 (1.055 x^(1/2.4) - 0.055), for a quarter of the middle to four times it.
+    let curve = [66, 92, 128, 176, 239];
+    for (stops, from) in [(-1, 0), (0, 1), (1, 2)] {
+        let line = format!("pm-gather map.pmp q.pmq --max-dist 0 --no-trace --base base.exr --exposure {stops}");
+        folder.run(&format!("{line} --image x.exr --image x.png")).ok();
+        let expected: Vec<u8> = (0..16 * 12).flat_map(|i| [curve[from + i % 3]; 3]).collect();
+        assert_eq!(png_pixels(&folder.path("x.png")), expected, "{stops} stops");
+        assert_eq!(Picture::read_exr(&folder.path("x.exr")).unwrap(), base, "{stops} stops");
+    }
+}

@@ -1,0 +1,47 @@
+//! Charts: a table in, an SVG picture out.
+//!
+//! A [`Plot`] is series of points over two axes. [`read`](Plot::read) makes one from CSV tables and a [`Selection`] of
+//! their columns, [`svg`](Plot::svg) draws it. What a scale is and where its ticks are is [`Scale`]'s; the drawing of
+//! lines and letters is a library's.
+
+mod axis;
+mod draw;
+mod frontier;
+mod select;
+
+pub use axis::{Axis, Scale};
+pub use draw::Look;
+pub use select::{Selection, TableError};
+
+/// A point of a series, in the units of the axes; on an axis of words, the number of the word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Across.
+    pub x: f64,
+    /// Up.
+    pub y: f64,
+    /// Half the width of the interval that holds the true y, if known.
+    pub error: Option<f64>,
+}
+
+/// Points that belong together, in the order in which a line joins them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points, never empty.
+    pub points: Vec<Point>,
+}
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// The axis across.
+    pub x: Axis,
+    /// The axis up.
+    pub y: Axis,
+    /// The series, in the order in which they first appear in the tables.
+    pub series: Vec<Series>,
+    /// Points to compare with, drawn in grey.
+    pub reference: Vec<Series>,
+}
