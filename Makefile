@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run scenes test check full-size causes charts-cache bench man clean
+.PHONY: help programs run accuracy pictures charts-cache scenes test check full-size causes bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -116,12 +116,176 @@ out/causes/%.csv: out/full/map.pmp
 	@mkdir -p out/causes
 	$(LAUNCH) sh -c '$(or $(CAUSE_$*),$(SMALL_QUERIES) | $(BIN)/pm-gather $< $(OPTIONS_$*)) -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
 
+# ---- make accuracy: is the light right? ------------------------------------------------------------------------------
+# What is known stands in scripts/accuracy.csv; each experiment is a target of its own, its rows in out/accuracy/NAME.csv.
+
+ACCURACY := out/accuracy
+KNOWN := scripts/accuracy.csv
+SCENE_furnace := scenes/furnace.obj
+SCENE_sphere := out/scenes/sphere.obj
+SCENE_grey := $(ACCURACY)/scenes/grey.obj
+SCENE_mm := $(ACCURACY)/scenes/furnace-mm.obj
+SCENE_far := $(ACCURACY)/scenes/furnace-far.obj
+SCENE_box := scenes/cornell-diffuse.obj
+SCENE_box-plain := scenes/cornell-diffuse.obj
+SCENE_box-mm := $(ACCURACY)/scenes/cornell-diffuse-mm.obj
+SCENE_box-far := $(ACCURACY)/scenes/cornell-diffuse-far.obj
+
+FURNACES := $(foreach k,10 30 100,furnace-direct-$k furnace-gather-$k sphere-direct-$k sphere-gather-$k) \
+    $(foreach scene,grey mm far,$(scene)-direct-100 $(scene)-gather-100)
+BOXES := box box-plain box-mm box-far
+BATCHES := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16
+PICTURES := $(FURNACES) $(BOXES) cached full
+EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
+
+accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: three minutes
+	@awk -f scripts/accuracy.awk $(KNOWN) $^
+
+# The rectangles of a picture that something is known of.
+regions = $(shell awk -F, -v e=$1 '$$1 == e { n = split($$2, part, " - "); for (i = 1; i <= n; i++) { gsub(" ", ",", part[i]); print "--mean " part[i] } }' $(KNOWN))
+
+# By the words of the target's name: scene, method, k. With few neighbours there must be many pixels for a mean.
+words = $(subst -, ,$*)
+VIEW_direct = --direct-visualisation --size $(if $(filter 100,$(lastword $(words))),100x100,240x240)
+VIEW_gather = --size 24x24 --gathers 64
+VIEW_box = --size 256x256 --gathers 49
+VIEW_plain = --size 128x128 --gathers 9
+VIEW_mm = $(VIEW_plain)
+VIEW_far = $(VIEW_plain)
+# pm-gather opens the base picture after the last query, when pm-queries has written it.
+picture = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $1 --base $(@:.exr=.base.exr) -t $(THREADS) | $(BIN)/pm-gather -q $2 - \
+    --base $(@:.exr=.base.exr) --image $@ --no-trace -t $(THREADS)'
+
+.SECONDEXPANSION:
+$(FURNACES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $(ACCURACY)/$$(firstword $$(words)).pmp
+	$(call picture,$(SCENE_$(firstword $(words))) $(VIEW_$(word 2,$(words))),$< -k $(lastword $(words)))
+
+$(BOXES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $(ACCURACY)/%.pmp
+	$(call picture,$(SCENE_$*) $(VIEW_$(lastword $(words))),$<)
+
+$(ACCURACY) $(ACCURACY)/scenes:
+	mkdir -p $@
+
+$(patsubst %,$(ACCURACY)/%.pmp,furnace sphere grey mm far $(BOXES)): $(ACCURACY)/%.pmp: $$(SCENE_$$*) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n $(if $(filter box-%,$*),300000,1000000) -t $(THREADS) -o $@
+
+$(PICTURES:%=$(ACCURACY)/%.csv): $(ACCURACY)/%.csv: $(ACCURACY)/%.exr
+	$(LAUNCH) $(BIN)/pm-view $< $(or $(call regions,$*),--mean all) --format csv -o $@
+
+# The furnace otherwise: all grey, and scenes of another size and at another place.
+$(SCENE_grey): scenes/furnace.obj scenes/furnace.mtl scenes/furnace.camera.toml | $(ACCURACY)/scenes
+	sed 's/^Kd .*/Kd .8 .8 .8/' scenes/furnace.mtl > $(@D)/grey.mtl
+	cp scenes/furnace.camera.toml $(@D)/grey.camera.toml
+	sed 's/^mtllib .*/mtllib grey.mtl/' $< > $@
+
+PLACE_mm := -v scale=1000 -v offset=0
+PLACE_far := -v scale=100 -v offset=1e5
+$(foreach at,mm far,$(ACCURACY)/scenes/furnace-$(at).obj $(ACCURACY)/scenes/cornell-diffuse-$(at).obj): $(ACCURACY)/scenes/%.obj: scripts/place.awk | $(ACCURACY)/scenes
+	cp scenes/*.mtl $(@D)
+	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).camera.toml > $(@D)/$*.camera.toml
+	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).obj > $@
+
+# Sixteen maps tell the flux and its standard error.
+$(BATCHES:%=$(ACCURACY)/flux-%.pmp): $(ACCURACY)/flux-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n 65536 --seed $* -t $(THREADS) -o $@
+
+$(BATCHES:%=$(ACCURACY)/flux-%.csv): %.csv: %.pmp
+	$(LAUNCH) sh -c '$(BIN)/pm-view --records $< | awk -v paths=$$($(BIN)/pm-view -q $< | sed -n "s/.*emitted_paths *//p" | tr -d ,) -f scripts/flux.awk' > $@
+
+$(ACCURACY)/flux.csv: $(BATCHES:%=$(ACCURACY)/flux-%.csv)
+	awk -f scripts/batches.awk $^ > $@
+
+# The map itself at edges and corners, where there is little light and few photons: eight maps of a million.
+EDGES := 1 2 3 4 5 6 7 8
+$(EDGES:%=$(ACCURACY)/edges-%.pmp): $(ACCURACY)/edges-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n 1000000 --seed $* -t $(THREADS) -o $@
+
+$(EDGES:%=$(ACCURACY)/edges-%.exr): %.exr: %.pmp
+	$(call picture,$(SCENE_box) --size 256x256 --direct-visualisation,$<)
+
+$(EDGES:%=$(ACCURACY)/edges-%.csv): %.csv: %.exr
+	$(LAUNCH) $(BIN)/pm-view $< $(call regions,edges) --format csv -o $@
+
+$(ACCURACY)/edges.csv: $(EDGES:%=$(ACCURACY)/edges-%.csv)
+	awk -f scripts/batches.awk $^ > $@
+
+# Cached irradiance against a full gather. Speckles of caustics would drown what is compared. A quarter of the rays is
+# enough for the mean of the full one; its searches are counted with all.
+CACHE_full := --size 512x512 --no-caustics
+CACHE_cached := $(CACHE_full) --irradiance-cache 0.1
+$(ACCURACY)/cached.exr $(ACCURACY)/full.exr: $(ACCURACY)/%.exr: $(ACCURACY)/cornell.pmp
+	$(call picture,$(CACHE_$*) $(if $(filter full,$*),--gathers 25),$<)
+
+$(ACCURACY)/cornell.pmp: | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q -n 100000 -t $(THREADS) -o $@
+
+$(ACCURACY)/cached-searches.csv $(ACCURACY)/full-searches.csv: $(ACCURACY)/%-searches.csv: | programs $(ACCURACY)
+	$(LAUNCH) sh -c '$(BIN)/pm-queries -q $(CACHE_$*) -t $(THREADS) | $(BIN)/pm-view -q --check | awk -F "whole, " "{ print \"name,r,g,b\"; print \"searches,\" \$$2 + 0 \",,\" }"' > $@
+
+$(ACCURACY)/powers.csv: scripts/powers.awk | $(ACCURACY)
+	$(LAUNCH) awk -f scripts/powers.awk > $@
+
+$(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
+	$(LAUNCH) awk -v mean=1 -f scripts/powers.awk $< > $@
+
+$(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv | programs
+	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | awk -v mean=1 -f scripts/powers.awk -' > $@
+
+# ---- make pictures: every scene, to look at ------------------------------------------------------------------------
+
+LOOK := out/pictures
+PICTURED := cornell cornell-diffuse fractal columns columns-cached furnace sphere
+# Where light comes through glass or off mirrors, it has a map of its own.
+SPARKLING := cornell fractal columns columns-cached
+base_of = $(patsubst %-cached,%,$1)
+scene_of = $(or $(wildcard scenes/$(base_of).obj),out/scenes/$(base_of).obj)
+EXPOSURE_furnace := --exposure -2.5
+EXPOSURE_sphere := --exposure -1.5
+LOOK_SIZE := --size 224x224
+# Seventeen lights instead of one; and walls that shine at one another from as near as their edges.
+LIGHTS_columns := --light-samples 128
+LIGHTS_furnace := --light-samples 128
+
+pictures: $(LOOK)/contact-sheet.png ## All scenes rendered, in out/pictures, and a contact sheet: two minutes
+	@echo "Pictures: $(LOOK)/*.png (previews), *.exr (linear); all of them on $<"
+
+$(LOOK)/contact-sheet.png: $(PICTURED:%=$(LOOK)/%.png)
+	$(BIN)/pm-view $^ --sheet $@
+
+$(LOOK):
+	mkdir -p $@
+
+$(LOOK)/%.pmp: $$(call scene_of,$$*) | programs $(LOOK)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n 400000 -t $(THREADS) -o $@
+
+$(LOOK)/%.caustics.pmp: $$(call scene_of,$$*) | programs $(LOOK)
+	$(LAUNCH) $(BIN)/pm-photons -q $< --caustics -n 100000 -t $(THREADS) -o $@
+
+# The light that is soft, by final gather in the order of the Hilbert curve, and direct light.
+soft = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $(call scene_of,$*) $(LOOK_SIZE) $(LIGHTS_$(call base_of,$*)) $(if $(filter %-cached,$*),--irradiance-cache 0.1,--gathers 36) \
+    $(if $(filter $*,$(SPARKLING)),--no-caustics) --base $(LOOK)/$*.base.exr -t $(THREADS) | $(BIN)/pm-reorder -q hilbert | \
+    $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).pmp - -k 50 --base $(LOOK)/$*.base.exr $1 --no-trace -t $(THREADS)'
+
+$(LOOK)/%.soft.exr: $(LOOK)/$$(call base_of,$$*).pmp
+	$(call soft,--image $@)
+
+# And what is sharp, where there is such light.
+sharp = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $(call scene_of,$*) $(LOOK_SIZE) --direct-visualisation -t $(THREADS) | \
+    $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).caustics.pmp - -k 50 --kernel cone --base $(LOOK)/$*.soft.exr $1 --no-trace -t $(THREADS)'
+
+$(LOOK)/%.exr $(LOOK)/%.png: $$(if $$(filter $$*,$$(SPARKLING)),$(LOOK)/$$(call base_of,$$*).caustics.pmp $(LOOK)/$$*.soft.exr,$(LOOK)/$$*.pmp)
+	$(call $(if $(filter $*,$(SPARKLING)),sharp,soft),$(EXPOSURE_$*) --image $(LOOK)/$*.exr --image $(LOOK)/$*.png)
+
+# Kept, so that a rerun makes only what is missing.
+.SECONDARY: $(foreach name,$(PICTURED),$(LOOK)/$(name).pmp $(LOOK)/$(name).caustics.pmp $(LOOK)/$(name).soft.exr $(LOOK)/$(name).exr)
 include scripts/charts.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 
-scenes: | programs ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere
-	for name in fractal columns sphere; do $(LAUNCH) $(BIN)/pm-scene $$name -o out/scenes || exit 1; done
+scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere
+
+out/scenes/%.obj: | programs
+	$(LAUNCH) $(BIN)/pm-scene $* -q -o out/scenes
 
 # ---- checks ---------------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 //!
 //! Each file answers one question, which is its first line.
 
+mod accuracy;
 mod charts;
 mod cli;
 mod curves;

@@ -98,6 +98,10 @@ fn two_pictures_are_compared() {
     assert!((value("max_difference") - 0.04).abs() < 1e-6);
     assert!((value("rmse") - (21e-4f64 / 3.0).sqrt()).abs() < 1e-6);
     assert_eq!((value("pixels"), value("differing")), (6.0, 6.0));
+    // A hundredth more light is hardly seen: not at all in a preview that is clipped.
+    assert!(value("hdr_flip") > 0.0 && value("hdr_flip") < 0.1 && value("ldr_flip") == 0.0, "{values:?}");
+    let dark = folder.run("pm-view a.exr b.exr --format csv --exposure -3 --pixels-per-degree 30").ok();
+    assert!(dark.text().ends_with(",30.0\n") && dark.text().contains(",-3.0,"), "{}", dark.text());
     let same = folder.run("pm-view a.exr a.exr --format json");
     assert_eq!((same.code, same.stderr.trim()), (0, "pm-view: the pictures are the same to the last bit"));
     assert!(same.text().contains("\"differing\": 0"), "{}", same.text());
@@ -116,4 +120,37 @@ fn a_picture_is_described() {
         "{text}"
     );
     assert!(text.contains("comments     photonmap.k = 9\n") && text.contains("software     pm "), "{text}");
+}
+
+#[test]
+fn rectangles_of_pictures_are_measured() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [3, 2], 0.5);
+    exr(&folder, "b.exr", [3, 2], 2.0);
+    let csv = folder.run("pm-view a.exr b.exr --mean 1,0,3,1 --mean all --format csv").ok();
+    same_text(
+        "means",
+        "picture,x0,y0,x1,y1,pixels,not_finite,r,g,b\n\
+         a.exr,1,0,3,1,2,0,0.5,1.0,2.0\na.exr,0,0,3,2,6,0,0.5,1.0,2.0\n\
+         b.exr,1,0,3,1,2,0,2.0,4.0,8.0\nb.exr,0,0,3,2,6,0,2.0,4.0,8.0\n",
+        csv.text(),
+    );
+    let beyond = folder.run("pm-view a.exr --mean 0,0,3,3 -o means.csv");
+    assert_eq!(beyond.fails(1), "pm-view: a.exr: region 0,0,3,3 reaches beyond the picture of 3x2 pixels");
+    for line in ["pm-view a.exr --mean 0,0,3", "pm-view --mean all", "pm-view a.exr --mean all --check"] {
+        assert_eq!(folder.run(line).code, 2, "{line}");
+    }
+    assert_eq!(folder.names(), ["a.exr", "b.exr"]);
+}
+
+#[test]
+fn a_contact_sheet_appears_whole_or_not_at_all() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [30, 20], 0.1);
+    folder.run("pm-view a.exr --sheet b.png").ok();
+    folder.run("pm-view a.exr b.png --sheet sheet.png --exposure 1").ok();
+    let _ = folder.run("pm-view a.exr none.png --sheet other.png").fails(1);
+    let _ = folder.run("pm-view a.exr --sheet sheet.exr").fails(2);
+    assert_eq!(folder.names(), ["a.exr", "b.png", "sheet.png"]);
+    assert!(folder.read("sheet.png").starts_with(b"\x89PNG"));
 }

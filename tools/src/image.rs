@@ -2,9 +2,15 @@
 
 mod compare;
 mod describe;
+mod flip;
+mod regions;
+mod sheet;
 
 pub use compare::{Comparison, REL_MSE_EPSILON};
 pub use describe::{Channel, Description};
+pub use flip::{HdrFlip, PIXELS_PER_DEGREE, hdr_flip, ldr_flip};
+pub use regions::{Region, RegionMean};
+pub use sheet::{Preview, contact_sheet};
 
 use anyhow::{Context as _, ensure};
 use exr::prelude::{
@@ -37,7 +43,7 @@ impl Picture {
     pub fn write(&self, path: &Path, output: &mut impl Write, attributes: &[(&str, String)]) -> anyhow::Result<()> {
         let bytes = match Format::of(path)? {
             Format::Exr => self.to_exr(attributes)?,
-            Format::Png => self.to_png()?,
+            Format::Png => encode_png(self.size, self.preview().pixels.as_flattened())?,
         };
         output.write_all(&bytes)?;
         Ok(())
@@ -65,18 +71,10 @@ impl Picture {
         Ok(bytes.into_inner())
     }
 
-    /// Clipped to [0, 1] and through the sRGB curve, 8 bits: values stay comparable between pictures.
-    fn to_png(&self) -> anyhow::Result<Vec<u8>> {
-        let mut bytes = vec![];
-        let mut encoder = png::Encoder::new(&mut bytes, self.size[0], self.size[1]);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        let data: Vec<u8> = self.pixels.iter().flatten().map(|&x| srgb(x)).collect();
-        let mut writer = encoder.write_header().context("the PNG image cannot be encoded")?;
-        writer.write_image_data(&data).context("the PNG image cannot be encoded")?;
-        writer.finish().context("the PNG image cannot be encoded")?;
-        Ok(bytes)
+    /// As a screen shows it: clipped to [0, 1] and through the sRGB curve, 8 bits. Values stay comparable between pictures.
+    #[must_use]
+    pub fn preview(&self) -> Preview {
+        Preview { size: self.size, pixels: self.pixels.iter().map(|pixel| pixel.map(srgb)).collect() }
     }
 
     /// Reads an EXR image with channels R, G, B.
@@ -148,6 +146,19 @@ impl Format {
             _ => Err(crate::cli::usage(format!("{}: an image's name ends in .exr or .png", path.display()))),
         }
     }
+}
+
+/// A PNG of 8-bit sRGB samples.
+fn encode_png(size: [u32; 2], data: &[u8]) -> anyhow::Result<Vec<u8>> {
+    let mut bytes = vec![];
+    let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header().context("the PNG image cannot be encoded")?;
+    writer.write_image_data(data).context("the PNG image cannot be encoded")?;
+    writer.finish().context("the PNG image cannot be encoded")?;
+    Ok(bytes)
 }
 
 /// IEC 61966-2-1, to 8 bits.

@@ -6,6 +6,6 @@ mod records;
 mod summary;
 
 pub use import::{Import, Imported, photons as import_photons, queries as import_queries};
-pub use pictures::{comparison, picture};
+pub use pictures::{Flips, comparison, picture, regions};
 pub use records::records;
 pub use summary::{Whole, end, header, read_to_end};

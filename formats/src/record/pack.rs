@@ -145,6 +145,33 @@ mod tests {
     }
 
     #[test]
+    fn a_million_random_powers_keep_their_mean() {
+        // Numbers and thresholds of SplitMix64 (Steele, Lea, Flood: *Fast Splittable Pseudorandom Number Generators*,
+        // OOPSLA 2014). Within 0.05 % in each channel; rounding down would lose 0.3 % of the brightest and more of others.
+        let mut state = 0u64;
+        let mut random = || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+        };
+        let (mut exact, mut packed) = ([0f64; 3], [0f64; 3]);
+        for _ in 0..1_000_000 {
+            let scale = 10f32.powf(random() * 4.0 - 2.0);
+            let rgb = [random(), random(), random()].map(|x| x * scale);
+            let back = unpack_rgbe(pack_rgbe(rgb, [random(), random(), random()]).unwrap());
+            (0..3).for_each(|c| {
+                exact[c] += f64::from(rgb[c]);
+                packed[c] += back[c];
+            });
+        }
+        for channel in 0..3 {
+            let ratio = packed[channel] / exact[channel];
+            assert!((ratio - 1.0).abs() < 5e-4, "channel {channel}: mean of the packed / mean = {ratio}");
+        }
+    }
+
+    #[test]
     fn axes_are_exact() {
         for axis in 0..3 {
             for sign in [1.0, -1.0] {

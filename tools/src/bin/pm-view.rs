@@ -8,11 +8,14 @@ use pm_tools::cli::{
     self, Input, OutputArgs, Progress, Typed, Voice, create_output, named, open_bytes, open_input, usage,
 };
 use pm_tools::foreign::{Exporter, Form};
-use pm_tools::image::{Comparison, Description, Picture};
+use pm_tools::image::{
+    self, Comparison, Description, PIXELS_PER_DEGREE, Picture, Preview, Region, RegionMean, contact_sheet, hdr_flip,
+    ldr_flip,
+};
 use pm_tools::report::Format;
 use pm_tools::setting::size;
 use pm_tools::size::Bytes;
-use pm_tools::view::{self, Import, Imported};
+use pm_tools::view::{self, Flips, Import, Imported};
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -20,7 +23,8 @@ use std::process::ExitCode;
 /// Look into a stream of photons, queries or memory accesses; compare pictures; import other renderers' points; export traces.
 ///
 /// Without options: header, history, and, read to the end, counts, digest and what each stage measured. Two pictures,
-/// a.exr b.exr: how far b is from a. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
+/// a.exr b.exr: how far b is from a; ldr_flip and hdr_flip are the means of FLIP, 0 for the same to 1 for black and white,
+/// of the previews at --exposure and of the radiance at all exposures that show it. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
 /// power_r,power_g,power_b, flux in watts times the emitted paths (1); from_x,from_y,from_z, towards where it came from
 /// (the normal); n_x,n_y,n_z (the direction it came from, else 0,1,0). Of queries: x,y,z; n_x,n_y,n_z (0,1,0);
 /// view_x,view_y,view_z, towards the viewer (the normal); pixel (number of the row, or one for all without --size);
@@ -29,7 +33,7 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
-    /// Streams to look into, or one or two .exr pictures; `-` is standard input
+    /// Streams to look into, or .exr pictures: one, or two to compare; `-` is standard input
     #[arg(default_value = "-")]
     streams: Vec<PathBuf>,
     /// Print the commands that made the stream, as they could be typed again; reads the header only
@@ -62,7 +66,19 @@ struct Args {
     /// Queries: size of the picture
     #[arg(long, value_name = "WxH", requires = "import", value_parser = size)]
     size: Option<[u32; 2]>,
-    /// How a comparison is written
+    /// Print the mean radiance of a rectangle of pixels, the last column and row not included; may be repeated
+    #[arg(long, value_name = "X0,Y0,X1,Y1|all", group = "what")]
+    mean: Vec<Region>,
+    /// Put .exr or .png pictures on a contact sheet with their names
+    #[arg(long, value_name = "FILE.png", group = "what", conflicts_with = "output")]
+    sheet: Option<PathBuf>,
+    /// Stops by which a sheet's .exr pictures, and those compared by ldr_flip, are brightened
+    #[arg(long, value_name = "STOPS", default_value = "0", allow_negative_numbers = true, value_parser = stops)]
+    exposure: f32,
+    /// Pixels to a degree of the field of view, for FLIP: 67 is a screen of 3840 pixels and 0.7 m, seen from 0.7 m
+    #[arg(long, value_name = "PPD", default_value_t = PIXELS_PER_DEGREE, value_parser = pixels_per_degree, hide_short_help = true)]
+    pixels_per_degree: f64,
+    /// How a comparison or means are written
     #[arg(long, default_value = "table")]
     format: Format,
     #[command(flatten)]
@@ -100,24 +116,42 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if let Some(what) = args.import {
         return import(what, &args, typed);
     }
+    if let Some(sheet) = &args.sheet {
+        return make_sheet(sheet, &args);
+    }
     if let Some(form) = args.export {
         return export(form, &args);
     }
     let pictures = args.streams.iter().filter(|path| is_picture(path)).count();
+    if !args.mean.is_empty() {
+        if pictures < args.streams.len() {
+            return Err(usage("--mean measures .exr pictures"));
+        }
+        return measure(&args);
+    }
     if pictures > 0
         && (pictures > 2 || pictures < args.streams.len() || args.history || args.check || args.records.is_some())
     {
-        return Err(usage("pictures are described one at a time or compared two at a time, without other options"));
+        return Err(usage(
+            "pictures are described one at a time or compared two at a time, without other options; --mean and --sheet take more",
+        ));
     }
     let mut output = create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?;
     match &args.streams[..] {
         [picture] if pictures == 1 => view::picture(&Description::read(picture)?, &mut output)?,
         [a, b] if pictures == 2 => {
-            let comparison = Comparison::new(&Picture::read_exr(a)?, &Picture::read_exr(b)?)?;
+            let [x, y] = [Picture::read_exr(a)?, Picture::read_exr(b)?];
+            let comparison = Comparison::new(&x, &y)?;
             if comparison.differing == 0 {
                 args.voice.remark("the pictures are the same to the last bit");
             }
-            view::comparison(&named(a), &named(b), &comparison).write(args.format, &mut output)?;
+            let flips = Flips {
+                ldr: ldr_flip(&x.exposed(args.exposure), &y.exposed(args.exposure), args.pixels_per_degree),
+                exposure: args.exposure,
+                hdr: hdr_flip(&x, &y, args.pixels_per_degree).mean,
+                pixels_per_degree: args.pixels_per_degree,
+            };
+            view::comparison(&named(a), &named(b), &comparison, &flips).write(args.format, &mut output)?;
         }
         streams => {
             for path in streams {
@@ -132,6 +166,45 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
 fn is_picture(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
+}
+
+fn stops(text: &str) -> Result<f32, String> {
+    text.parse()
+        .ok()
+        .filter(|stops: &f32| stops.is_finite())
+        .ok_or_else(|| "a finite number of stops is expected".into())
+}
+
+fn pixels_per_degree(text: &str) -> Result<f64, String> {
+    let parsed = text.parse().ok().filter(|ppd| (1.0..=1000.0).contains(ppd));
+    parsed.ok_or_else(|| "a number of pixels from 1 to 1000 is expected".into())
+}
+
+fn measure(args: &Args) -> anyhow::Result<()> {
+    let mut output = create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?;
+    let mut found = vec![];
+    for path in &args.streams {
+        let picture = Picture::read_exr(path)?;
+        for &region in &args.mean {
+            found.push((named(path), RegionMean::new(&picture, region).with_context(|| named(path))?));
+        }
+    }
+    view::regions(&found).write(args.format, &mut output)?;
+    output.commit()
+}
+
+fn make_sheet(sheet: &Path, args: &Args) -> anyhow::Result<()> {
+    if image::Format::of(sheet)? != image::Format::Png {
+        return Err(usage("a contact sheet's name ends in .png"));
+    }
+    let named = |path: &PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok((name, Preview::read(path, args.exposure)?))
+    };
+    let previews = args.streams.iter().map(named).collect::<anyhow::Result<Vec<_>>>()?;
+    let mut output = create_output(sheet)?;
+    output.write_all(&contact_sheet(&previews)?)?;
+    output.commit()
 }
 
 fn export(form: Form, args: &Args) -> anyhow::Result<()> {
