@@ -1,0 +1,114 @@
+# make accuracy: is the light right? What is known stands in scripts/accuracy.csv; each experiment is a target of its own,
+# its rows in out/accuracy/NAME.csv.
+
+ACCURACY := out/accuracy
+KNOWN := scripts/accuracy.csv
+SCENE_furnace := scenes/furnace.obj
+SCENE_sphere := out/scenes/sphere.obj
+SCENE_grey := $(ACCURACY)/scenes/grey.obj
+SCENE_mm := $(ACCURACY)/scenes/furnace-mm.obj
+SCENE_far := $(ACCURACY)/scenes/furnace-far.obj
+SCENE_box := scenes/cornell-diffuse.obj
+SCENE_box-plain := scenes/cornell-diffuse.obj
+SCENE_box-mm := $(ACCURACY)/scenes/cornell-diffuse-mm.obj
+SCENE_box-far := $(ACCURACY)/scenes/cornell-diffuse-far.obj
+
+FURNACES := $(foreach k,10 30 100,furnace-direct-$k furnace-gather-$k sphere-direct-$k sphere-gather-$k) \
+    $(foreach scene,grey mm far,$(scene)-direct-100 $(scene)-gather-100)
+BOXES := box box-plain box-mm box-far
+BATCHES := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16
+PICTURES := $(FURNACES) $(BOXES) cached full
+EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
+
+accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: three minutes
+	@awk -f scripts/accuracy.awk $(KNOWN) $^
+
+# The rectangles of a picture that something is known of.
+regions = $(shell awk -F, -v e=$1 '$$1 == e { n = split($$2, part, " - "); for (i = 1; i <= n; i++) { gsub(" ", ",", part[i]); print "--mean " part[i] } }' $(KNOWN))
+
+# By the words of the target's name: scene, method, k. With few neighbours there must be many pixels for a mean.
+words = $(subst -, ,$*)
+VIEW_direct = --direct-visualisation --size $(if $(filter 100,$(lastword $(words))),100x100,240x240)
+VIEW_gather = --size 24x24 --gathers 64
+VIEW_box = --size 256x256 --gathers 49
+VIEW_plain = --size 128x128 --gathers 9
+VIEW_mm = $(VIEW_plain)
+VIEW_far = $(VIEW_plain)
+# pm-gather opens the base picture after the last query, when pm-queries has written it.
+picture = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $1 --base $(@:.exr=.base.exr) -t $(THREADS) | $(BIN)/pm-gather -q $2 - \
+    --base $(@:.exr=.base.exr) --image $@ --no-trace -t $(THREADS)'
+
+.SECONDEXPANSION:
+$(FURNACES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $(ACCURACY)/$$(firstword $$(words)).pmp
+	$(call picture,$(SCENE_$(firstword $(words))) $(VIEW_$(word 2,$(words))),$< -k $(lastword $(words)))
+
+$(BOXES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $(ACCURACY)/%.pmp
+	$(call picture,$(SCENE_$*) $(VIEW_$(lastword $(words))),$<)
+
+$(ACCURACY) $(ACCURACY)/scenes:
+	mkdir -p $@
+
+$(patsubst %,$(ACCURACY)/%.pmp,furnace sphere grey mm far $(BOXES)): $(ACCURACY)/%.pmp: $$(SCENE_$$*) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n $(if $(filter box-%,$*),300000,1000000) -t $(THREADS) -o $@
+
+$(PICTURES:%=$(ACCURACY)/%.csv): $(ACCURACY)/%.csv: $(ACCURACY)/%.exr
+	$(LAUNCH) $(BIN)/pm-view $< $(or $(call regions,$*),--mean all) --format csv -o $@
+
+# The furnace otherwise: all grey, and scenes of another size and at another place.
+$(SCENE_grey): scenes/furnace.obj scenes/furnace.mtl scenes/furnace.camera.toml | $(ACCURACY)/scenes
+	sed 's/^Kd .*/Kd .8 .8 .8/' scenes/furnace.mtl > $(@D)/grey.mtl
+	cp scenes/furnace.camera.toml $(@D)/grey.camera.toml
+	sed 's/^mtllib .*/mtllib grey.mtl/' $< > $@
+
+PLACE_mm := -v scale=1000 -v offset=0
+PLACE_far := -v scale=100 -v offset=1e5
+$(foreach at,mm far,$(ACCURACY)/scenes/furnace-$(at).obj $(ACCURACY)/scenes/cornell-diffuse-$(at).obj): $(ACCURACY)/scenes/%.obj: scripts/place.awk | $(ACCURACY)/scenes
+	cp scenes/*.mtl $(@D)
+	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).camera.toml > $(@D)/$*.camera.toml
+	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).obj > $@
+
+# Sixteen maps tell the flux and its standard error.
+$(BATCHES:%=$(ACCURACY)/flux-%.pmp): $(ACCURACY)/flux-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n 65536 --seed $* -t $(THREADS) -o $@
+
+$(BATCHES:%=$(ACCURACY)/flux-%.csv): %.csv: %.pmp
+	$(LAUNCH) sh -c '$(BIN)/pm-view --records $< | awk -v paths=$$($(BIN)/pm-view -q $< | sed -n "s/.*emitted_paths *//p" | tr -d ,) -f scripts/flux.awk' > $@
+
+$(ACCURACY)/flux.csv: $(BATCHES:%=$(ACCURACY)/flux-%.csv)
+	awk -f scripts/batches.awk $^ > $@
+
+# The map itself at edges and corners, where there is little light and few photons: eight maps of a million.
+EDGES := 1 2 3 4 5 6 7 8
+$(EDGES:%=$(ACCURACY)/edges-%.pmp): $(ACCURACY)/edges-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q $< -n 1000000 --seed $* -t $(THREADS) -o $@
+
+$(EDGES:%=$(ACCURACY)/edges-%.exr): %.exr: %.pmp
+	$(call picture,$(SCENE_box) --size 256x256 --direct-visualisation,$<)
+
+$(EDGES:%=$(ACCURACY)/edges-%.csv): %.csv: %.exr
+	$(LAUNCH) $(BIN)/pm-view $< $(call regions,edges) --format csv -o $@
+
+$(ACCURACY)/edges.csv: $(EDGES:%=$(ACCURACY)/edges-%.csv)
+	awk -f scripts/batches.awk $^ > $@
+
+# Cached irradiance against a full gather. Speckles of caustics would drown what is compared. A quarter of the rays is
+# enough for the mean of the full one; its searches are counted with all.
+CACHE_full := --size 512x512 --no-caustics
+CACHE_cached := $(CACHE_full) --irradiance-cache 0.1
+$(ACCURACY)/cached.exr $(ACCURACY)/full.exr: $(ACCURACY)/%.exr: $(ACCURACY)/cornell.pmp
+	$(call picture,$(CACHE_$*) $(if $(filter full,$*),--gathers 25),$<)
+
+$(ACCURACY)/cornell.pmp: | programs $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-photons -q -n 100000 -t $(THREADS) -o $@
+
+$(ACCURACY)/cached-searches.csv $(ACCURACY)/full-searches.csv: $(ACCURACY)/%-searches.csv: | programs $(ACCURACY)
+	$(LAUNCH) sh -c '$(BIN)/pm-queries -q $(CACHE_$*) -t $(THREADS) | $(BIN)/pm-view -q --check | awk -F "whole, " "{ print \"name,r,g,b\"; print \"searches,\" \$$2 + 0 \",,\" }"' > $@
+
+$(ACCURACY)/powers.csv: scripts/powers.awk | $(ACCURACY)
+	$(LAUNCH) awk -f scripts/powers.awk > $@
+
+$(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
+	$(LAUNCH) awk -v mean=1 -f scripts/powers.awk $< > $@
+
+$(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv | programs
+	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | awk -v mean=1 -f scripts/powers.awk -' > $@
