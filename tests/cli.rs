@@ -42,7 +42,7 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-queries --eye 1,2,inf", "1,2,inf"),
         ("pm-queries --base direct.jpg", "direct.jpg: an image's name ends in .exr or .png"),
         ("pm-reorder", "ORDER"),
-        ("pm-reorder backwards q.pmq", "hilbert, random"),
+        ("pm-reorder backwards q.pmq", "hilbert, morton"),
         ("pm-reorder hilbert q.pmq --per pixel", "batch, image"),
         ("pm-reorder hilbert q.pmq q.pmq", "q.pmq"),
         ("pm-gather - -", "standard input"),

@@ -34,7 +34,7 @@ pub fn pack_direction<const BITS: u32>(v: [f32; 3]) -> u32 {
     u32::from(quantise(x, half)) | u32::from(quantise(y, half)) << BITS
 }
 
-/// The unit vector that was packed, to within the quantisation (0.0001 rad at 16 bits, 0.03 at 7).
+/// The unit vector that was packed, to within the quantisation (0.0001 rad at 16 bits, 0.034 at 7).
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "masked to at most 16 bits")]
 pub fn unpack_direction<const BITS: u32>(packed: u32) -> [f32; 3] {
@@ -190,9 +190,12 @@ mod tests {
             prop_assume!(length > 1e-3);
             let v = [x / length, y / length, z / length];
             let error = |w: [f32; 3]| (0..3).map(|i| (v[i] - w[i]).powi(2)).sum::<f32>().sqrt();
-            prop_assert!(error(unpack_direction::<16>(pack_direction::<16>(v))) < 1e-4);
-            prop_assert!(error(unpack_direction::<8>(pack_direction::<8>(v))) < 0.016);
-            prop_assert!(error(unpack_direction::<7>(pack_direction::<7>(v))) < 0.032);
+            // Half a step h in x and y moves z by 2 h: sqrt(6) h in the plane of a face, whose centre is 1 / sqrt(3) from
+            // the origin. So an angle of sqrt(18) h; 1 % for what is not linear, and what f32 rounds.
+            let bound = |half: f32| 18f32.sqrt() * 0.5 / half * 1.01 + 1e-6;
+            prop_assert!(error(unpack_direction::<16>(pack_direction::<16>(v))) < bound(32767.0));
+            prop_assert!(error(unpack_direction::<8>(pack_direction::<8>(v))) < bound(127.0));
+            prop_assert!(error(unpack_direction::<7>(pack_direction::<7>(v))) < bound(63.0));
         }
 
         #[test]
