@@ -8,6 +8,7 @@ mod files;
 mod invariance;
 mod light;
 mod oracles;
+mod orders;
 mod pipes;
 mod readme;
 mod scenes;
