@@ -30,6 +30,27 @@ fn measure(stream: &[u8], name: &str) -> f64 {
 }
 
 #[test]
+fn a_pass_is_a_bin_of_the_hemisphere() {
+    let folder = Folder::new();
+    let line = "pm-queries --size 24x18 --gathers 16 --order direction-binned --tile 100 --bins 4";
+    let stream = folder.run(line).ok().stdout;
+    // Four by four strata, two by two of them to a bin.
+    let bin = |query: &Query| {
+        let stratum = query.sample % 16;
+        stratum / 4 / 2 * 2 + stratum % 4 / 2
+    };
+    let queries = records::<Query>(&stream);
+    let passes: Vec<&[Query]> = queries.chunk_by(|a, b| bin(a) == bin(b)).collect();
+    // What is seen directly, and then what is seen in the mirror and through the glass.
+    let bins: Vec<u32> = passes.iter().map(|pass| bin(&pass[0])).collect();
+    assert_eq!(bins, [0, 1, 2, 3, 0, 1, 2, 3]);
+    assert!(passes.iter().all(|pass| pass.is_sorted_by_key(|query| query.pixel)));
+    assert!(passes[..4].iter().all(|direct| direct.len() > passes[4].len()));
+    // Each later pass casts the eye rays again: three for what is seen directly, four for the rest.
+    assert_eq!(measure(&stream, "eye_rays_again"), 7.0 * measure(&stream, "eye_rays"));
+}
+
+#[test]
 fn sorted_on_disk_is_sorted_in_memory() {
     let folder = folder();
     folder.run("pm-queries --size 48x48 --gathers 16 --irradiance-cache 0.05 -o cached.pmq").ok();
