@@ -141,7 +141,7 @@ bench: ## Speed, as ratios measured side by side
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder gather cachesim chart view scene; do \
+	for program in photons queries reorder sample gather cachesim chart view scene; do \
 	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
 	done
 

@@ -22,6 +22,21 @@ const GENERATIVE: [&str; 9] = [
 const DEFERRED: [&str; 5] =
     ["hilbert", "hilbert --per batch", "random", "random --per batch", "random --seed 7 --per image"];
 
+/// More of them, for some of the orders above.
+const MORE_DEFERRED: [&str; 11] = [
+    "morton",
+    "leaf --photons map.pmp",
+    "hashed --buckets 5 --capacity 8",
+    "hashed --per batch --cell 0.1",
+    "partition --storage 8K",
+    "partition --storage 64K --record compact --per batch",
+    "cells --photons map.pmp --leaf-photons 200 --per batch",
+    "snowplow --storage 4K",
+    "snowplow --storage 256 --record compact --per batch",
+    "buffered --storage 16K",
+    "buffered --storage 2K --photons map.pmp --leaf-photons 100",
+];
+
 /// Runs a command with 1, 2 and 5 threads; `get` must find the same bytes after each.
 fn same_for_any_threads(folder: &Folder, line: &str, get: impl Fn(&[u8]) -> Vec<u8>) {
     let run = |threads: u32| get(&folder.run(&format!("{line} -t {threads}")).ok().stdout);
@@ -66,11 +81,16 @@ fn threads_change_no_byte_of_a_picture() {
 
 /// The queries of the built-in scene in every order, as files; their names.
 fn queries_in_every_order(folder: &Folder) -> Vec<String> {
+    if !folder.path("map.pmp").exists() {
+        folder.run("pm-photons -n 2000 -o map.pmp").ok();
+    }
     let mut names = vec![];
     for (g, generative) in GENERATIVE.iter().enumerate() {
         let name = format!("q{g}.pmq");
         folder.run(&format!("pm-queries {SMALL} {generative} -o {name}")).ok();
-        for (d, deferred) in DEFERRED.iter().enumerate() {
+        // Scanline, tiled and direction-binned.
+        let more = if [0, 2, 6].contains(&g) { &MORE_DEFERRED[..] } else { &[] };
+        for (d, deferred) in DEFERRED.iter().chain(more).enumerate() {
             let reordered = format!("q{g}-{d}.pmq");
             folder.run(&format!("pm-reorder {deferred} {name} -o {reordered}")).ok();
             names.push(reordered);
@@ -108,8 +128,27 @@ fn orders_are_orders() {
     };
     // Without this, doing nothing at all would pass for every order.
     let names = [
-        "q0.pmq", "q2.pmq", "q5.pmq", "q6.pmq", "q7.pmq", "q8.pmq", "q0-0.pmq", "q0-1.pmq", "q0-2.pmq", "q0-3.pmq",
-        "q0-4.pmq", "q2-1.pmq",
+        "q0.pmq",
+        "q2.pmq",
+        "q5.pmq",
+        "q6.pmq",
+        "q7.pmq",
+        "q8.pmq",
+        "q0-0.pmq",
+        "q0-1.pmq",
+        "q0-2.pmq",
+        "q0-3.pmq",
+        "q0-4.pmq",
+        "q2-1.pmq",
+        "q0-5.pmq",
+        "q0-6.pmq",
+        "q0-7.pmq",
+        "q0-8.pmq",
+        "q2-11.pmq",
+        "q0-12.pmq",
+        "q2-13.pmq",
+        "q0-14.pmq",
+        "q0-15.pmq",
     ];
     let sequences = names.map(sequence);
     for (i, name) in names.iter().enumerate() {

@@ -13,6 +13,7 @@ mod guide;
 mod invariance;
 mod light;
 mod oracles;
+mod orders;
 mod pictures;
 mod pipes;
 mod precomputed;

@@ -11,10 +11,11 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The programs, and where cargo has just built them.
-pub(crate) const PROGRAMS: [(&str, &str); 8] = [
+pub(crate) const PROGRAMS: [(&str, &str); 9] = [
     ("pm-photons", env!("CARGO_BIN_EXE_pm-photons")),
     ("pm-queries", env!("CARGO_BIN_EXE_pm-queries")),
     ("pm-reorder", env!("CARGO_BIN_EXE_pm-reorder")),
+    ("pm-sample", env!("CARGO_BIN_EXE_pm-sample")),
     ("pm-gather", env!("CARGO_BIN_EXE_pm-gather")),
     ("pm-cachesim", env!("CARGO_BIN_EXE_pm-cachesim")),
     ("pm-chart", env!("CARGO_BIN_EXE_pm-chart")),

@@ -308,6 +308,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if let Some(cache) = &cache {
         report = report.with("irradiance_records", Number::Count(cache.len() as u64));
     }
+    if counts.eye_again > 0 {
+        report = report.with("eye_rays_again", Number::Count(counts.eye_again));
+    }
     if options.min_gather_dist > 0.0 {
         report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
     }

@@ -66,6 +66,8 @@ pub enum Strata {
 pub struct RayCounts {
     /// Eye rays, with their reflections and refractions.
     pub eye: u64,
+    /// Eye rays that were cast again for a later pass over their pixel.
+    pub eye_again: u64,
     /// Points seen where light is spread.
     pub seen: u64,
     /// Gather rays, not counting their reflections and refractions.
@@ -81,6 +83,7 @@ pub struct RayCounts {
 impl std::ops::AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
         self.eye += other.eye;
+        self.eye_again += other.eye_again;
         self.seen += other.seen;
         self.gather += other.gather;
         self.gather_lost += other.gather_lost;
@@ -183,9 +186,7 @@ impl<'a> GatherRays<'a> {
             }
         };
         let eye_rays = self.eye.see(&self.stage, x, y, &mut found, &mut eye_light);
-        if first_pass {
-            counts.eye += eye_rays;
-        }
+        *(if first_pass { &mut counts.eye } else { &mut counts.eye_again }) += eye_rays;
         let wanted = |behind_specular: bool| match leaves {
             Leaves::All => true,
             Leaves::Direct => !behind_specular,
