@@ -10,7 +10,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("cache", &["size", "formats"]), // never photon_map: it sees accesses only
     ("cli", &["formats"]),
     ("film", &[]),
-    ("gather", &["photon_map", "irradiance", "film", "formats"]),
+    ("gather", &["photon_map", "irradiance", "film", "random", "formats"]),
     ("hemisphere", &[]),
     ("image", &["cli"]),
     ("irradiance", &["hemisphere", "film", "formats"]),

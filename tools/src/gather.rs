@@ -4,10 +4,12 @@ mod answer;
 mod disc;
 mod estimate;
 mod kernel;
+mod lookups;
 
 pub use answer::{Answered, Answerer, Fault, SearchCounts};
 pub use estimate::{Edges, EstimateOptions, Estimator, Outcome, RadianceEstimate, Scratch};
 pub use kernel::Kernel;
+pub use lookups::Lookups;
 
 #[cfg(test)]
 mod tests;
