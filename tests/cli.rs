@@ -48,7 +48,7 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-gather map.pmp q.pmq --max-dist=-1", "a distance of 0 or more"),
         ("pm-gather map.pmp q.pmq --max-dist nan", "a distance of 0 or more"),
         ("pm-gather map.pmp q.pmq --start-radius 0", "a radius above 0, `inf` or `auto`"),
-        ("pm-gather map.pmp q.pmq --map octree", "kd, brute"),
+        ("pm-gather map.pmp q.pmq --map octree", "kd, bucket-kd"),
         ("pm-gather map.pmp q.pmq --image out", "out: an image's name ends in .exr or .png"),
         ("pm-gather map.pmp q.pmq --base direct.exr", "--image"),
         ("pm-gather map.pmp q.pmq --no-trace -o t.pmt", "--no-trace"),

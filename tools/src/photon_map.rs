@@ -123,4 +123,6 @@ fn check(photons: &[Photon]) -> Result<(), BuildError> {
 }
 
 #[cfg(test)]
+mod stability;
+#[cfg(test)]
 mod tests;

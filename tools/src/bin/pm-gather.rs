@@ -44,16 +44,19 @@ struct Args {
     /// Largest distance at which a photon counts, in scene units: part of the answer
     #[arg(long, value_name = "X|inf", default_value = "inf", value_parser = distance)]
     max_dist: f32,
-    /// Radius a search starts with, doubled until it finds enough: changes the reads, not the answer. `auto` is the
-    /// radius that 99 % of the searches at 1,000 photons need
+    /// Radius a search starts with: changes the reads, not the answer
+    ///
+    /// It is doubled until the search finds enough. `auto` is the radius that 99 % of the searches at 1,000 photons need.
     #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
     start_radius: StartRadius,
-    /// Start each search from what the one before knows, |q - q'| + r_k(q'), within each block of up to 4,096 queries:
-    /// changes the reads, not the answer
+    /// Start from what the search before knows: changes the reads, not the answer
+    ///
+    /// All k photons of the query q' before lie within |q - q'| + r_k(q') of q. The chain begins anew with each block of the
+    /// stream, after 4,096 queries at most and at the end of a batch.
     #[arg(long)]
     carry: bool,
-    /// Also log the second touch of each inner node, when the search comes back to it for its own photon
-    #[arg(long)]
+    /// Also log the second touch of each inner node of kd, when the search comes back to it for its own photon
+    #[arg(long, hide_short_help = true)]
     reread: bool,
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
@@ -79,8 +82,9 @@ struct Args {
     /// Write no trace: for the picture, or for speed alone
     #[arg(long, conflicts_with = "output")]
     no_trace: bool,
-    /// Describe the lookups, the map and its building in a .csv, .json or text file (`-`: standard output); approximate
-    /// maps are compared with exact answers for 1,000 queries
+    /// Describe lookups, map and its building in a .csv, .json or text file
+    ///
+    /// Approximate maps are compared with exact answers for 1,000 queries. `-` is standard output, with --no-trace.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -359,9 +363,9 @@ fn describe(
         ("lines_per_query", Float(lookups.lines as f64 / queries, 5)),
         ("short_lookups", Int(counts.short)),
         ("distance_mean", Float(lookups.mean_distance(), 4)),
-        ("distance_5%", Float(lookups.distance_quantile(0.05), 4)),
-        ("distance_50%", Float(lookups.distance_quantile(0.5), 4)),
-        ("distance_95%", Float(lookups.distance_quantile(0.95), 4)),
+        ("distance_p5", Float(lookups.distance_quantile(0.05), 4)),
+        ("distance_p50", Float(lookups.distance_quantile(0.5), 4)),
+        ("distance_p95", Float(lookups.distance_quantile(0.95), 4)),
         ("distance_largest", Float(lookups.distance_quantile(1.0), 4)),
     ];
     values.extend(map.measures().into_iter().map(|(name, number)| {

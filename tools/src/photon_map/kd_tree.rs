@@ -137,7 +137,7 @@ impl PhotonMap for KdTree {
         let mut depth = 0;
         let mut at = 1;
         loop {
-            let node = nodes[at - 1];
+            let node = &nodes[at - 1];
             eyes.read(0, self.record(at));
             eyes.examined(1);
             let left = 2 * at;
@@ -174,7 +174,7 @@ impl PhotonMap for KdTree {
                 }
                 depth -= 1;
                 eyes.reread(0, self.record(parent as usize));
-                let node = nodes[parent as usize - 1];
+                let node = &nodes[parent as usize - 1];
                 found.show(distance_squared(point, node.position), node.id());
             }
         }

@@ -71,6 +71,7 @@ impl Leaves {
     }
 
     /// Number of photons in a leaf.
+    #[inline]
     pub(super) fn count(&self, leaf: usize) -> usize {
         self.counts[leaf] as usize
     }

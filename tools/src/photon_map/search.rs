@@ -94,7 +94,12 @@ impl Search {
         eyes: &mut impl AccessObserver,
     ) -> u32 {
         // An approximate map reads no less for a smaller radius, and may never find k photons.
-        let start = if map.is_exact() { self.start.min(sure) } else { self.max_dist };
+        let start = match map.is_exact() {
+            // A hint a little below what is sure to do would seldom save much and sometimes fail.
+            true if self.start * 2.0 < sure => self.start,
+            true => sure,
+            false => self.max_dist,
+        };
         let mut radius = start.min(self.max_dist);
         let mut attempts = 1;
         loop {

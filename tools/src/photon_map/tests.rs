@@ -3,12 +3,12 @@
 use super::*;
 use crate::random::Random;
 
-fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
+pub(super) fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
     let up = [0.0, 1.0, 0.0];
     positions.into_iter().map(|p| Photon::new(p, [1.0; 3], [0.5; 3], up, up).unwrap()).collect()
 }
 
-fn random_points(n: usize, mut map: impl FnMut([f32; 3]) -> [f32; 3]) -> Vec<[f32; 3]> {
+pub(super) fn random_points(n: usize, mut map: impl FnMut([f32; 3]) -> [f32; 3]) -> Vec<[f32; 3]> {
     let mut random = Random::new(&[n as u64]);
     (0..n).map(|_| map([(); 3].map(|()| random.unit()))).collect()
 }
@@ -77,7 +77,7 @@ fn exact_maps(photons: &[Photon], k: usize) -> Vec<(String, AnyMap)> {
 }
 
 /// The map that these options of the command line ask for.
-fn build(options: &str, photons: &[Photon], k: usize) -> AnyMap {
+pub(super) fn build(options: &str, photons: &[Photon], k: usize) -> AnyMap {
     use clap::{Args as _, FromArgMatches as _};
     let command = MapOptions::augment_args(clap::Command::new("test").no_binary_name(true));
     let matches = command.try_get_matches_from(options.split_whitespace()).unwrap();
