@@ -176,16 +176,17 @@ impl Stripped {
     fn nearest(&self, point: [f32; 3], found: &mut Nearest) {
         let nodes = &self.0[..];
         let count = nodes.len();
+        if count == 0 {
+            return;
+        }
         let mut above = [(0u32, 0u32, 0f32); 32];
-        let (mut depth, mut at) = (0, 1);
-        let show = |node: &StrippedNode, found: &mut Nearest| {
-            found.show(distance_squared(point, node.position), node.id_and_axis & 0x3fff_ffff);
-        };
+        let mut depth = 0;
+        let mut at = 1;
         loop {
             let node = &nodes[at - 1];
             let left = 2 * at;
             if left <= count {
-                let axis = (node.id_and_axis >> 30) as usize;
+                let axis = node.axis();
                 let delta = point[axis] - node.position[axis];
                 let (near, far) = if delta > 0.0 { (left + 1, left) } else { (left, left + 1) };
                 if near <= count {
@@ -201,7 +202,7 @@ impl Stripped {
                     continue;
                 }
             }
-            show(node, found);
+            found.show(distance_squared(point, node.position), node.id());
             loop {
                 if depth == 0 {
                     return;
@@ -213,9 +214,22 @@ impl Stripped {
                     break;
                 }
                 depth -= 1;
-                show(&nodes[parent as usize - 1], found);
+                let node = &nodes[parent as usize - 1];
+                found.show(distance_squared(point, node.position), node.id());
             }
         }
+    }
+}
+
+impl StrippedNode {
+    #[inline(always)]
+    const fn id(self) -> u32 {
+        self.id_and_axis & 0x3fff_ffff
+    }
+
+    #[inline(always)]
+    const fn axis(self) -> usize {
+        (self.id_and_axis >> 30) as usize
     }
 }
 
