@@ -15,7 +15,7 @@ use pm_formats::trace::{Coding, Region, lay_out};
 const BUCKETS: u16 = 0;
 /// Bytes that a block spends on its number of photons and its own number.
 const BLOCK_HEADER: u32 = 8;
-/// Bytes that a bucket spends on its number of references.
+/// Bytes that a bucket spends on its cell and its number of references.
 const BUCKET_HEADER: u32 = 4;
 /// Bytes of a reference: a block's number, and how many of its photons lie in the cell.
 const REFERENCE: u32 = 5;

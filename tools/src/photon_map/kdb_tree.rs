@@ -13,7 +13,7 @@ const PAGES: u16 = 0;
 /// Number of the region that holds the photons.
 const BLOCKS: u16 = 1;
 
-/// Bytes that every page spends on its level and number of entries.
+/// Bytes that every page spends on its level, its number of entries, and which child or photon is the first.
 const HEADER: u32 = 8;
 
 /// What a region page says of its children.
@@ -51,7 +51,7 @@ pub struct KdbOptions {
 
 type Box3 = ([f32; 3], [f32; 3]);
 
-/// The tree: pages level by level of recursion, the children of a page side by side.
+/// The tree. The pages, or blocks, below a page have numbers that follow one another.
 pub struct KdbTree {
     pages: Vec<Page>,
     children: Vec<Child>,
@@ -126,7 +126,8 @@ impl KdbTree {
         }
         if !points.is_empty() {
             let bounds = extent(points.iter().map(|point| point.position));
-            builder.page(&mut points, bounds, level);
+            builder.pages.push(Page::default());
+            builder.page(0, &mut points, bounds, level);
         }
         let mut blocks = Leaves::new(builder.blocks.len(), capacity);
         builder.blocks.iter().enumerate().for_each(|(block, points)| blocks.fill(block, points));
@@ -146,29 +147,33 @@ impl Builder {
         self.leaf.saturating_mul(self.fan_out.saturating_pow(level))
     }
 
-    /// Makes a region page and all below it.
-    fn page(&mut self, points: &mut [Point], cell: Box3, level: u32) -> Target {
+    /// Makes region page `number` and all below it.
+    fn page(&mut self, number: usize, points: &mut [Point], cell: Box3, level: u32) {
         let below = self.capacity(level - 1);
         let mut parts = vec![];
         cut(points, cell, points.len().div_ceil(below), below, &mut parts);
-        let number = self.pages.len();
-        self.pages.push(Page { first: self.children.len() as u32, count: parts.len() as u32 });
-        let first = self.children.len();
-        self.children.resize(first + parts.len(), Child { bounds: cell, target: Target::default() });
-        for (at, (points, cell)) in (first..).zip(parts) {
+        self.pages[number] = Page { first: self.children.len() as u32, count: parts.len() as u32 };
+        let (first_page, first_block) = (self.pages.len(), self.blocks.len());
+        if level > 1 {
+            self.pages.resize(first_page + parts.len(), Page::default());
+        }
+        for (at, (points, cell)) in parts.iter().enumerate() {
             let bounds = match self.form {
-                PageForm::Compact => cell,
+                PageForm::Compact => *cell,
                 PageForm::Boxes => extent(points.iter().map(|point| point.position)),
             };
-            let target = if level == 1 {
-                self.blocks.push(points.to_vec());
-                Target((self.blocks.len() as u32 - 1) | Target::BLOCK)
-            } else {
-                self.page(points, cell, level - 1)
+            let target = match level {
+                1 => Target((first_block + at) as u32 | Target::BLOCK),
+                _ => Target((first_page + at) as u32),
             };
-            self.children[at] = Child { bounds, target };
+            self.children.push(Child { bounds, target });
         }
-        Target(number as u32)
+        for (at, (points, cell)) in parts.into_iter().enumerate() {
+            match level {
+                1 => self.blocks.push(points.to_vec()),
+                _ => self.page(first_page + at, points, cell, level - 1),
+            }
+        }
     }
 }
 
@@ -272,7 +277,11 @@ mod tests {
             assert!(partial <= 1, "{partial} blocks of {} are not full", tree.blocks.len());
             let children: u32 = tree.pages.iter().map(|page| page.count).sum();
             assert_eq!(children as usize, tree.blocks.len() + tree.pages.len() - 1, "each but the root has one parent");
-            assert!(tree.pages.iter().all(|page| page.count <= pages.fan_out(128)));
+            for page in &tree.pages {
+                assert!(page.count <= pages.fan_out(128));
+                let children = &tree.children[page.first as usize..(page.first + page.count) as usize];
+                assert!(children.windows(2).all(|pair| pair[1].target.0 == pair[0].target.0 + 1), "one after another");
+            }
         }
     }
 
