@@ -150,8 +150,12 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if photons.header.bounds != queries.header().bounds {
         args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
     }
-    let (map, building) = Building::measure(|| args.structure.build(&photons.photons, args.k as usize))
-        .with_context(|| named(&args.photons))?;
+    let build = || args.structure.build(&photons.photons, args.k as usize);
+    let built = match args.report {
+        Some(_) => Building::measure(build).map(|(map, building)| (map, Some(building))),
+        None => build().map(|map| (map, None)),
+    };
+    let (map, building) = built.with_context(|| named(&args.photons))?;
     gather(&args, typed, (&map, building), &photons, queries)
 }
 
@@ -181,7 +185,7 @@ impl PhotonInput {
 fn gather(
     args: &Args,
     typed: &Typed,
-    (map, building): (&AnyMap, Building),
+    (map, building): (&AnyMap, Option<Building>),
     photons: &PhotonInput,
     mut queries: BlockReader<Input>,
 ) -> anyhow::Result<()> {
@@ -339,7 +343,7 @@ fn stages(
 /// What `--report` says, by name. Times and memory are in here and in no stream.
 fn describe(
     args: &Args,
-    (map, building): (&AnyMap, Building),
+    (map, building): (&AnyMap, Option<Building>),
     photons: &PhotonInput,
     search: &Search,
     mut lookups: Lookups,
@@ -352,8 +356,8 @@ fn describe(
         ("line", Int(args.structure.line.into())),
         ("photons", Int(photons.photons.len() as u64)),
         ("structure_bytes", Int(header.regions.iter().map(|region| region.size).sum())),
-        ("build_seconds", Float(building.seconds, 3)),
-        ("build_peak_bytes", building.peak_bytes.map_or(Text("-".into()), Int)),
+        ("build_seconds", Float(building.map_or(f64::NAN, |building| building.seconds), 3)),
+        ("build_peak_bytes", building.and_then(|building| building.peak_bytes).map_or(Text("-".into()), Int)),
         ("gather_seconds", Float(seconds, 3)),
         ("queries", Int(lookups.queries)),
         ("start_radius", Float(f64::from(search.start), 4)),

@@ -367,13 +367,18 @@ mod tests {
     #[test]
     fn what_no_bucket_refers_to_is_counted_by_looking() {
         let photons = wall(3000);
-        let map = BlockHash::build(&photons, BlockHashOptions { slots: Some(3), ..OPTIONS }).unwrap();
-        let referenced: std::collections::BTreeSet<u32> = map
-            .tables
-            .iter()
-            .flat_map(|table| table.buckets.iter().flatten().map(|reference| reference.block))
-            .collect();
-        assert_eq!(map.blocks() - referenced.len(), map.unreferenced());
+        for orphans in [Orphans::Keep, Orphans::Repair] {
+            for (slots, tables, thresholds) in [(3, 8, 8), (1, 4, 4), (2, 6, 10)] {
+                let sizes = BlockHashOptions { tables: Some(tables), thresholds: Some(thresholds), ..OPTIONS };
+                let map =
+                    BlockHash::build(&photons, BlockHashOptions { slots: Some(slots), orphans, ..sizes }).unwrap();
+                let buckets = || map.tables.iter().flat_map(|table| &table.buckets);
+                let referenced: std::collections::BTreeSet<u32> =
+                    buckets().flatten().map(|reference| reference.block).collect();
+                assert_eq!(map.blocks() - referenced.len(), map.unreferenced(), "{orphans:?} {slots}");
+                assert!(buckets().all(|bucket| bucket.len() <= slots as usize));
+            }
+        }
     }
 
     #[test]
