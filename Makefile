@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures charts-cache scenes test check full-size causes bench man clean
+.PHONY: help programs run accuracy pictures charts-cache scenes test check full-size causes stability bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -135,6 +135,11 @@ test: ## All tests, optimised
 check: ## Formatting and lints
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --release -- -D warnings
+
+stability: ## Photon maps under stress: out/stability.txt, a table of structures and what breaks them
+	mkdir -p out
+	PM_STABILITY_TABLE=$(CURDIR)/out/stability.txt $(CARGO) test -q -p pm-tools --release --lib stability
+	@cat out/stability.txt
 
 bench: ## Speed, as ratios measured side by side
 	$(CARGO) bench -p pm-tools

@@ -1,9 +1,10 @@
 //! Do the answers stay the same for every order, every exact photon map, any number of threads, pipe or files?
 
-use crate::streams::{check, records, searches, sorted_records};
+use crate::streams::{Search, check, records, searches, sorted_records};
 use crate::support::{Folder, SMALL, same_bytes, same_text};
 use pm_formats::{Query, Tally};
 use pm_tools::image::Picture;
+use std::collections::BTreeMap;
 
 /// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.
 const GENERATIVE: [&str; 9] = [
@@ -55,6 +56,13 @@ fn threads_change_no_byte_of_a_stream() {
         "pm-photons -n 40000",
         "pm-gather map.pmp q.pmq",
         "pm-gather --map brute --start-radius 0.01 map.pmp q.pmq",
+        "pm-gather --carry map.pmp q.pmq",
+        "pm-gather --map bucket-kd --carry --start-radius inf map.pmp q.pmq",
+        "pm-gather --map kd --layout veb --pad map.pmp q.pmq",
+        "pm-gather --map vvh map.pmp q.pmq",
+        "pm-gather --map kdb map.pmp q.pmq",
+        "pm-gather --map grid map.pmp q.pmq",
+        "pm-gather --map block-hash map.pmp q.pmq",
         "pm-photons --caustics -n 20000",
         "pm-queries --size 16x12 --gathers 9 --irradiance-cache 0.2",
         "pm-queries --size 16x12 --gathers 4 --samples 3 --min-gather-dist 0.1 --sampling uniform",
@@ -165,7 +173,19 @@ fn orders_are_orders() {
 fn every_order_makes_the_same_searches() {
     let folder = Folder::with_streams();
     let names = queries_in_every_order(&folder);
-    for map in ["kd", "kd --layout preorder", "kd --reread", "brute"] {
+    for map in [
+        "kd",
+        "kd --layout preorder",
+        "kd --layout veb --pad",
+        "kd --reread",
+        "bucket-kd",
+        "vvh",
+        "kdb",
+        "grid",
+        "grid-fixed",
+        "block-hash",
+        "brute",
+    ] {
         let mut tallies: Vec<Tally> = vec![];
         for name in &names {
             let trace = folder.run(&format!("pm-gather --map {map} map.pmp {name}")).ok();
@@ -201,6 +221,16 @@ fn the_picture_is_the_same_to_the_last_bit() {
         "--map brute --start-radius 0.02 -t 5",
         "--map kd --layout preorder",
         "--map kd --layout preorder --reread --start-radius inf -t 2",
+        "--map kd --layout veb --pad --line 64",
+        "--map kd --carry -t 2",
+        "--map bucket-kd",
+        "--map bucket-kd --line 320 --carry --start-radius inf -t 3",
+        "--map bucket-kd --layout veb --line 32",
+        "--map vvh",
+        "--map kdb --fill 0.6",
+        "--map kdb --pages boxes --line 256 --carry",
+        "--map grid --start-radius inf",
+        "--map grid-fixed --slots 2000",
         "--max-dist 1e9",
     ] {
         same_bytes(options, &expected, &picture(&format!("q0-2.pmq {options}")));
@@ -217,6 +247,71 @@ fn the_picture_is_the_same_to_the_last_bit() {
     assert!(sum("out.exr") > 1.1 * sum("direct.exr") && sum("direct.exr") > 1.0);
     assert_ne!(expected, picture("q.pmq -k 10"));
     assert_ne!(expected, picture("q.pmq --max-dist 0.01"));
+    // Approximate maps say so by another picture, where they have too little room to be right by chance.
+    assert_ne!(expected, picture("q.pmq --map grid-fixed --slots 1"));
+    assert_ne!(expected, picture("q.pmq --map block-hash --budget 1"));
+}
+
+#[test]
+fn what_is_carried_changes_the_reads_and_not_the_searches() {
+    let folder = Folder::with_streams();
+    folder.run("pm-reorder hilbert q.pmq -o h.pmq").ok();
+    let trace = |options: &str| searches(&folder.run(&format!("pm-gather map.pmp h.pmq {options}")).ok().stdout);
+    let reads = |searches: &[Search]| searches.iter().map(|search| search.accesses.len()).sum::<usize>();
+    for map in ["--map kd", "--map bucket-kd"] {
+        let (plain, carried) =
+            (trace(&format!("{map} --start-radius inf")), trace(&format!("{map} --start-radius inf --carry")));
+        assert_eq!(plain.len(), carried.len());
+        assert!(plain.iter().zip(&carried).all(|(a, b)| a.pixels == b.pixels));
+        assert!(reads(&carried) < reads(&plain), "{map}: {} {}", reads(&carried), reads(&plain));
+    }
+}
+
+#[test]
+fn padding_moves_records_and_changes_nothing_else() {
+    let folder = Folder::with_streams();
+    let trace = |options: &str| searches(&folder.run(&format!("pm-gather map.pmp q.pmq {options}")).ok().stdout);
+    let (packed, padded) = (trace("--layout preorder"), trace("--layout preorder --pad --line 128"));
+    for (packed, padded) in packed.iter().zip(&padded) {
+        assert_eq!(
+            (packed.batch, &packed.pixels, packed.accesses.len()),
+            (padded.batch, &padded.pixels, padded.accesses.len())
+        );
+        for (a, b) in packed.accesses.iter().zip(&padded.accesses) {
+            let record = a.offset / 20;
+            assert_eq!((b.offset, b.len), (record / 6 * 128 + record % 6 * 20, 20));
+            assert_eq!(b.offset / 128, (b.offset + 19) / 128, "crosses a line");
+        }
+    }
+}
+
+#[test]
+fn a_report_describes_and_disturbs_nothing() {
+    let folder = Folder::with_streams();
+    let plain = folder.run("pm-gather map.pmp q.pmq").ok().stdout;
+    let described = folder.run("pm-gather map.pmp q.pmq --report r.csv").ok().stdout;
+    assert!(searches(&plain) == searches(&described));
+    let report = |options: &str| -> BTreeMap<String, String> {
+        folder.run(&format!("pm-gather map.pmp q.pmq {options} --no-trace --report r.csv")).ok();
+        let text = String::from_utf8(folder.read("r.csv")).unwrap();
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
+        lines.next().unwrap().zip(lines.next().unwrap()).collect()
+    };
+    let number = |report: &BTreeMap<String, String>, name: &str| report[name].parse::<f64>().unwrap();
+    let kd = report("");
+    assert_eq!(
+        (&*kd["map"], &*kd["queries"], &*kd["short_lookups"]),
+        ("kd", &*searches(&plain).len().to_string(), "0")
+    );
+    let reads = searches(&plain).iter().map(|search| search.accesses.len()).sum::<usize>();
+    assert!((number(&kd, "reads_per_query") * number(&kd, "queries") - reads as f64).abs() < 0.01 * reads as f64);
+    assert!(number(&kd, "lines_per_query") < number(&kd, "reads_per_query"));
+    // Maps agree on what was found; the approximate one says how far it is from that.
+    let bucket = report("--map bucket-kd");
+    assert_eq!(kd["distance_p50"], bucket["distance_p50"]);
+    let hash = report("--map block-hash --line 256");
+    assert!(number(&hash, "recall_mean") > 0.9 && number(&hash, "dilation_mean") < 1.05, "{hash:?}");
+    assert!(hash.contains_key("blocks_unreferenced") && hash.contains_key("blocks_unreached"));
 }
 
 #[test]

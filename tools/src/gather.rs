@@ -4,11 +4,13 @@ mod answer;
 mod disc;
 mod estimate;
 mod kernel;
+mod lookups;
 mod precomputed;
 
 pub use answer::{Answered, Answerer, Fault, SearchCounts};
 pub use estimate::{Edges, EstimateOptions, Estimator, Outcome, RadianceEstimate, Scratch};
 pub use kernel::Kernel;
+pub use lookups::Lookups;
 pub use precomputed::{Precomputation, PrecomputationError, PrecomputedIrradiance};
 
 #[cfg(test)]

@@ -3,17 +3,38 @@
 //! Every search is written once. It tells an [`AccessObserver`] which records it reads; an observer that does nothing
 //! costs nothing, so the picture that is checked and the accesses that are counted come from the same code.
 
+mod accuracy;
+mod any;
+mod block_hash;
 mod brute_force;
+mod bucket_kd;
+mod building;
+mod curve;
+mod grid;
 mod kd_tree;
+mod kdb_tree;
+mod layout;
+mod leaves;
 mod nearest;
 mod observer;
 mod search;
+mod split_tree;
+mod vvh;
 
+pub use accuracy::Accuracy;
+pub use any::{AnyMap, MapKind, MapOptions};
+pub use block_hash::{BlockHash, BlockHashOptions, Orphans};
 pub use brute_force::BruteForce;
-pub use kd_tree::{KdTree, Layout};
+pub use bucket_kd::BucketKdTree;
+pub use building::Building;
+pub use grid::{Cells, Grid};
+pub use kd_tree::KdTree;
+pub use kdb_tree::{KdbOptions, KdbTree, PageForm};
+pub use layout::Layout;
 pub use nearest::Nearest;
 pub use observer::{AccessObserver, Blind, Visits};
-pub use search::{Search, StartRadius};
+pub use search::{Carry, Search, StartRadius};
+pub use vvh::VvhTree;
 
 use pm_formats::Photon;
 use pm_formats::trace::Region;
@@ -35,6 +56,16 @@ pub trait PhotonMap: Sync {
         self.len() == 0
     }
 
+    /// Bytes of the lines that no record of the map crosses, if its records are padded; else they are packed.
+    fn padding(&self) -> Option<u32> {
+        None
+    }
+
+    /// True if the photons found are always the nearest.
+    fn is_exact(&self) -> bool {
+        true
+    }
+
     /// Adds to `found` the photons nearest to `point`, within its bound.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver);
 }
@@ -48,6 +79,22 @@ pub enum BuildError {
     /// Photon ids must fit 30 bits.
     #[error("{0} photons are more than a map can hold (1,073,741,823)")]
     TooMany(usize),
+    /// More lines than can be told apart.
+    #[error("the map would have more than 4,294,967,295 lines; ask for fewer --slots or --thresholds")]
+    TooLarge,
+}
+
+/// Byte offset of a record in its region, whether records are packed or padded (see [`PhotonMap::padding`]).
+#[inline]
+#[must_use]
+pub fn offset_of(record: u32, record_size: u32, padding: Option<u32>) -> u64 {
+    match padding {
+        Some(line) => {
+            let in_line = line / record_size;
+            u64::from(record / in_line) * u64::from(line) + u64::from(record % in_line * record_size)
+        }
+        None => u64::from(record) * u64::from(record_size),
+    }
 }
 
 /// Squared distance as every map computes it.
@@ -55,6 +102,14 @@ pub enum BuildError {
 pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f32 {
     let [dx, dy, dz] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     (dx * dx + dy * dy) + dz * dz
+}
+
+/// The smallest box that holds all of some positions.
+fn extent(positions: impl IntoIterator<Item = [f32; 3]>) -> ([f32; 3], [f32; 3]) {
+    let none = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    positions.into_iter().fold(none, |(low, high), position| {
+        ([0, 1, 2].map(|axis| position[axis].min(low[axis])), [0, 1, 2].map(|axis| position[axis].max(high[axis])))
+    })
 }
 
 /// Photons that a map can be built from.
@@ -67,5 +122,7 @@ fn check(photons: &[Photon]) -> Result<(), BuildError> {
     photons.iter().position(|photon| !usable(photon)).map_or(Ok(()), |index| Err(BuildError::Coordinate(index)))
 }
 
+#[cfg(test)]
+mod stability;
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
-use pm_formats::trace::TraceWriter;
+use pm_formats::trace::{Region, TraceWriter};
 use pm_formats::{
     Block, BlockReader, End, Header, Kind, Number, Photon, Section, StageReport, Step, Tally, decode_irradiance,
     decode_weights,
@@ -12,15 +12,19 @@ use pm_tools::cli::{
 };
 use pm_tools::film::Film;
 use pm_tools::gather::{
-    Answered, Answerer, Edges, EstimateOptions, Estimator, Fault, Kernel, Precomputation, PrecomputedIrradiance,
-    RadianceEstimate, SearchCounts,
+    Answered, Answerer, Edges, EstimateOptions, Estimator, Fault, Kernel, Lookups, Precomputation,
+    PrecomputedIrradiance, RadianceEstimate, SearchCounts,
 };
 use pm_tools::image::{Format, Picture};
 use pm_tools::irradiance::CachedIrradiance;
 use pm_tools::parallel::in_order;
-use pm_tools::photon_map::{BruteForce, KdTree, Layout, PhotonMap, Search, StartRadius};
+use pm_tools::photon_map::{
+    Accuracy, AnyMap, BucketKdTree, Building, Layout, MapOptions, PhotonMap, Search, StartRadius,
+};
+use pm_tools::report;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Answer gather queries from a photon map; write the memory reads as a trace, and the picture on request.
 ///
@@ -35,24 +39,27 @@ struct Args {
     /// Queries to answer; `-` is standard input
     #[arg(default_value = "-")]
     queries: PathBuf,
-    /// Structure of the photon map
-    #[arg(long, default_value = "kd")]
-    map: Map,
-    /// Where the nodes of the kd-tree lie in memory: changes the addresses read, not the answer
-    #[arg(long, default_value = "heap")]
-    layout: Layout,
+    #[command(flatten)]
+    structure: MapOptions,
     /// Number of nearest photons to gather
     #[arg(short, default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     k: u32,
     /// Largest distance at which a photon counts, in scene units: part of the answer
     #[arg(long, value_name = "X|inf", default_value = "inf", value_parser = distance)]
     max_dist: f32,
-    /// Radius a search starts with, doubled until it finds enough: changes the reads, not the answer. `auto` is the
-    /// radius that 99 % of the searches at 1,000 photons need
+    /// Radius a search starts with: changes the reads, not the answer
+    ///
+    /// It is doubled until the search finds enough. `auto` is the radius that 99 % of the searches at 1,000 photons need.
     #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
     start_radius: StartRadius,
-    /// Also log the second touch of each inner node, when the search comes back to it for its own photon
+    /// Start from what the search before knows: changes the reads, not the answer
+    ///
+    /// All k photons of the query q' before lie within |q - q'| + r_k(q') of q. The chain begins anew with each block of the
+    /// stream, after 4,096 queries at most and at the end of a batch.
     #[arg(long)]
+    carry: bool,
+    /// Also log the second touch of each inner node of kd, when the search comes back to it for its own photon
+    #[arg(long, hide_short_help = true)]
     reread: bool,
     /// How photons become radiance
     #[arg(long, default_value = "unbiased")]
@@ -62,7 +69,7 @@ struct Args {
     /// Christensen's method: one photon with a similar normal is searched for instead of k, in a tree of its own, which is
     /// what the trace holds. The searches for k that are made beforehand are counted in the trace's end block. Queries of
     /// glossy surfaces search for k as ever. Some error for far fewer reads; k should be well above 16.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["pad", "report"])]
     precomputed: bool,
     /// One of how many photons holds precomputed irradiance
     #[arg(
@@ -91,27 +98,15 @@ struct Args {
     /// Write no trace: for the picture, or for speed alone
     #[arg(long, conflicts_with = "output")]
     no_trace: bool,
+    /// Describe lookups, map and its building in a .csv, .json or text file
+    ///
+    /// Approximate maps are compared with exact answers for 1,000 queries. `-` is standard output, with --no-trace.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArgs,
     #[command(flatten)]
     common: Common,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Map {
-    /// Left-balanced kd-tree, 20-byte nodes, Jensen's search
-    Kd,
-    /// No structure: every photon is read for every query; for checking
-    Brute,
-}
-
-impl Map {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Kd => "kd",
-            Self::Brute => "brute",
-        }
-    }
 }
 
 const EXAMPLES: &str = "\
@@ -154,6 +149,15 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if !args.exposure.is_finite() {
         return Err(cli::usage("--exposure: a finite number of stops is expected"));
     }
+    if let Some(problem) = args.structure.problem() {
+        return Err(cli::usage(problem));
+    }
+    let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(|path| path == Path::new("-"));
+    if standard(&args.report) && !args.no_trace && (args.output.output.is_none() || standard(&args.output.output)) {
+        return Err(cli::usage(
+            "--report - and the trace cannot share standard output; name a file or give --no-trace",
+        ));
+    }
     if args.base.is_some() && args.image.is_empty() {
         return Err(cli::usage("--base is added to a picture: ask for one with --image"));
     }
@@ -162,10 +166,13 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if photons.header.bounds != queries.header().bounds {
         args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
     }
-    match args.map {
-        Map::Kd => gather(&args, typed, &KdTree::build(&photons.photons, args.layout)?, &photons, queries),
-        Map::Brute => gather(&args, typed, &BruteForce::build(&photons.photons)?, &photons, queries),
-    }
+    let build = || args.structure.build(&photons.photons, args.k as usize);
+    let built = match args.report {
+        Some(_) => Building::measure(build).map(|(map, building)| (map, Some(building))),
+        None => build().map(|map| (map, None)),
+    };
+    let (map, building) = built.with_context(|| named(&args.photons))?;
+    gather(&args, typed, (&map, building), &photons, queries)
 }
 
 /// A photon stream read as a whole.
@@ -190,12 +197,16 @@ impl PhotonInput {
 fn gather(
     args: &Args,
     typed: &Typed,
-    map: &impl PhotonMap,
+    (map, building): (&AnyMap, Option<Building>),
     photons: &PhotonInput,
     mut queries: BlockReader<Input>,
 ) -> anyhow::Result<()> {
     let k = args.k as usize;
+    if args.carry && !map.is_exact() {
+        args.common.remark("--carry: an approximate map reads the same wherever it starts");
+    }
     let search = match args.start_radius {
+        _ if !map.is_exact() => Search::new(k, args.max_dist),
         StartRadius::Unbounded => Search::new(k, args.max_dist),
         StartRadius::Auto => Search::new(k, args.max_dist).fit_start(map, &photons.photons),
         StartRadius::Fixed(start) => Search { start: start.min(args.max_dist), ..Search::new(k, args.max_dist) },
@@ -203,7 +214,7 @@ fn gather(
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
     header.regions = map.regions(args.reread);
-    header.set_meaning("map", args.map.name());
+    header.set_meaning("map", args.structure.map.name());
     header.set_meaning("k", args.k);
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
@@ -211,6 +222,7 @@ fn gather(
     // First, so that a reader of the trace who leaves at once does not leave without the pictures being missed.
     let images: Vec<(&PathBuf, Output)> =
         args.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
+    let report = args.report.as_ref().map(|path| create_output(path)).transpose()?;
     let estimate = RadianceEstimate::new(
         &photons.photons,
         &query_header.materials,
@@ -255,6 +267,8 @@ fn gather(
     let unit = Film::new(0, scale);
     let answerer = Answerer {
         search,
+        carry: args.carry,
+        describe: report.is_some().then_some((args.structure.line, &header.regions[..])),
         map,
         header: &query_header,
         reread: args.reread,
@@ -267,6 +281,8 @@ fn gather(
     let queries = std::cell::RefCell::new(queries);
     let progress = Progress::new(query_header.expected_records, "queries", args.common.quiet);
     let (mut tally, mut counts, mut first) = (beside, SearchCounts::default(), first);
+    let mut lookups: Option<Lookups> = None;
+    let start = Instant::now();
     in_order(
         args.common.threads(),
         || match first.take() {
@@ -292,10 +308,15 @@ fn gather(
             progress.add(answered.tally.records);
             tally += answered.tally;
             counts += answered.counts;
+            match (&mut lookups, answered.lookups) {
+                (Some(lookups), Some(more)) => *lookups += more,
+                (none, more) => *none = more,
+            }
             Ok(())
         },
     )?;
     drop(progress);
+    let seconds = start.elapsed().as_secs_f64();
     let queries = queries.into_inner();
     let end = queries.end(tally).context(name)?;
 
@@ -321,8 +342,13 @@ fn gather(
         cache.interpolate(&sums, &mut picture.pixels);
     }
     write_images(args, picture, images, &origin(args, photons, &query_header, tally))?;
+    if let Some(output) = report {
+        let lookups = lookups.unwrap_or_else(|| Lookups::new(args.structure.line, &header.regions, None));
+        let values = describe(args, (map, building), photons, &search, lookups, (&header, counts, seconds))?;
+        write_report(args, values, output)?;
+    }
     if let Some(trace) = trace {
-        let mut stages = stages(typed, end, photons, &search, counts, tally);
+        let mut stages = stages(typed, end, photons, (&search, &map.measures()), counts, tally);
         if let (Some(sites), Some(stage)) = (&precomputed, stages.pop()) {
             let stage = stage.with("lookups_without_site", Number::Count(counts.no_site));
             stages.push(sites.report(stage));
@@ -336,22 +362,112 @@ fn stages(
     typed: &Typed,
     end: &End,
     photons: &PhotonInput,
-    search: &Search,
+    (search, measures): (&Search, &[(&str, Number)]),
     counts: SearchCounts,
     tally: Tally,
 ) -> Vec<StageReport> {
     let mut stages = end.stages.clone();
     stages.push(
-        StageReport::new(typed.program())
-            .with("photons", Number::Count(photons.photons.len() as u64))
-            .with("queries", Number::Count(tally.records))
-            .with("accesses", Number::Count(counts.accesses))
-            .with("attempts", Number::Count(counts.attempts))
-            .with("start_radius", Number::Real(f64::from(search.start)))
-            .with("short_lookups", Number::Count(counts.short))
-            .with("lookups_without_area", Number::Count(counts.no_area)),
+        measures.iter().fold(
+            StageReport::new(typed.program())
+                .with("photons", Number::Count(photons.photons.len() as u64))
+                .with("queries", Number::Count(tally.records))
+                .with("accesses", Number::Count(counts.accesses))
+                .with("attempts", Number::Count(counts.attempts))
+                .with("start_radius", Number::Real(f64::from(search.start)))
+                .with("short_lookups", Number::Count(counts.short))
+                .with("lookups_without_area", Number::Count(counts.no_area)),
+            |stage, &(name, number)| stage.with(name, number),
+        ),
     );
     stages
+}
+
+/// What `--report` says, by name. Times and memory are in here and in no stream.
+fn describe(
+    args: &Args,
+    (map, building): (&AnyMap, Option<Building>),
+    photons: &PhotonInput,
+    search: &Search,
+    mut lookups: Lookups,
+    (header, counts, seconds): (&Header, SearchCounts, f64),
+) -> anyhow::Result<Vec<(String, report::Value)>> {
+    use report::Value::{Float, Int, Text};
+    let queries = lookups.queries as f64;
+    let mut values = vec![
+        ("map", Text(args.structure.map.name().into())),
+        ("line", Int(args.structure.line.into())),
+        ("photons", Int(photons.photons.len() as u64)),
+        ("structure_bytes", Int(header.regions.iter().map(|region| region.size).sum())),
+        ("build_seconds", Float(building.map_or(f64::NAN, |building| building.seconds), 3)),
+        ("build_peak_bytes", building.and_then(|building| building.peak_bytes).map_or(Text("-".into()), Int)),
+        ("gather_seconds", Float(seconds, 3)),
+        ("queries", Int(lookups.queries)),
+        ("start_radius", Float(f64::from(search.start), 4)),
+        ("attempts_per_query", Float(counts.attempts as f64 / queries, 4)),
+        ("photons_examined_per_query", Float(lookups.photons_examined as f64 / queries, 5)),
+        ("reads_per_query", Float(lookups.reads as f64 / queries, 5)),
+        ("lines_per_query", Float(lookups.lines as f64 / queries, 5)),
+        ("short_lookups", Int(counts.short)),
+        ("distance_mean", Float(lookups.mean_distance(), 4)),
+        ("distance_p5", Float(lookups.distance_quantile(0.05), 4)),
+        ("distance_p50", Float(lookups.distance_quantile(0.5), 4)),
+        ("distance_p95", Float(lookups.distance_quantile(0.95), 4)),
+        ("distance_largest", Float(lookups.distance_quantile(1.0), 4)),
+    ];
+    values.extend(map.measures().into_iter().map(|(name, number)| {
+        let value = match number {
+            Number::Count(n) | Number::Bytes(n) => Int(n),
+            Number::Real(x) => Float(x, 4),
+        };
+        (name, value)
+    }));
+    if !map.is_exact() {
+        let truth = BucketKdTree::build(&photons.photons, Layout::Heap, 320)?;
+        let blocks = map.blocks();
+        let blocks = blocks.as_ref().map(|(region, blocks)| (*region, &blocks[..]));
+        let found = Accuracy::measure(map, &truth, *search, &lookups.sample(), blocks);
+        values.extend([
+            ("sampled_queries", Int(found.queries)),
+            ("recall_mean", Float(found.mean_recall(), 4)),
+            ("recall_least", Float(found.least_recall, 4)),
+            ("dilation_mean", Float(found.mean_dilation(), 5)),
+            ("dilation_largest", Float(found.largest_dilation, 4)),
+        ]);
+        if blocks.is_some() {
+            values.extend([
+                ("blocks_wanted", Int(found.blocks_wanted())),
+                ("blocks_unreached", Int(found.blocks_unreached())),
+                ("blocks_missed_per_query", Float(found.blocks_missed as f64 / found.queries as f64, 4)),
+            ]);
+        }
+    }
+    let region = |region: &Region| (format!("bytes_of_{}", region.name.replace(' ', "_")), Int(region.size));
+    let values = values.into_iter().map(|(name, value)| (name.to_owned(), value));
+    Ok(values.chain(header.regions.iter().map(region)).collect())
+}
+
+/// Writes a report: a row for programs, or a line for each value for people.
+fn write_report(args: &Args, values: Vec<(String, report::Value)>, mut output: Output) -> anyhow::Result<()> {
+    use report::{Align, Column, Format as Form, Table, Value};
+    let ending = args.report.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
+    let form = match ending {
+        Some("csv") => Form::Csv,
+        Some("json") => Form::Json,
+        _ => Form::Table,
+    };
+    let column = |name: String, align: Align| Column { name, align };
+    let mut table;
+    if form == Form::Table {
+        table = Table::new(vec![column("measure".into(), Align::Left), column("value".into(), Align::Right)]);
+        values.into_iter().for_each(|(name, value)| table.push(vec![Value::Text(name), value]));
+    } else {
+        let (names, row): (Vec<_>, Vec<_>) = values.into_iter().unzip();
+        table = Table::new(names.into_iter().map(|name| column(name, Align::Right)).collect());
+        table.push(row);
+    }
+    table.write(form, &mut output)?;
+    output.commit()
 }
 
 /// Reads what stands before the first query: cached irradiance, if there is any. Also returns the first block of

@@ -1,10 +1,11 @@
 //! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
 
+use super::lookups::Lookups;
 use super::{Outcome, PrecomputedIrradiance, RadianceEstimate, Scratch};
 use crate::film::{Film, Overflow};
 use crate::irradiance::CachedIrradiance;
-use crate::photon_map::{Nearest, PhotonMap, Search, Visits};
-use pm_formats::trace::{BlockEncoder, Coding, Region};
+use crate::photon_map::{AccessObserver, Blind, Carry, Nearest, PhotonMap, Search, Visits, offset_of};
+use pm_formats::trace::{Access, BlockEncoder, Coding, Region};
 use pm_formats::{Block, Header, Query, Tally, decode_checked};
 use std::ops::AddAssign;
 
@@ -12,6 +13,10 @@ use std::ops::AddAssign;
 pub struct Answerer<'a, M> {
     /// How photons are searched for.
     pub search: Search,
+    /// Does a search start from what the one before in its block knows?
+    pub carry: bool,
+    /// Bytes of the lines in which lookups are described, and the map's regions, if that is wanted.
+    pub describe: Option<(u32, &'a [Region])>,
     /// Where.
     pub map: &'a M,
     /// Header of the query stream.
@@ -40,6 +45,8 @@ pub struct Answered {
     pub cached: Vec<(u32, [i128; 3])>,
     /// What was done.
     pub counts: SearchCounts,
+    /// What the lookups were like, if that is wanted.
+    pub lookups: Option<Lookups>,
 }
 
 /// What searches did.
@@ -95,6 +102,10 @@ impl<M: PhotonMap> Answerer<'_, M> {
         let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
         let mut cached = vec![];
         let mut counts = SearchCounts::default();
+        let mut lookups = self.describe.map(|(line, regions)| Lookups::new(line, regions, self.map.padding()));
+        let watched = encoder.is_some() || lookups.is_some();
+        // A chain ends with its block: the stream says where.
+        let mut carry = Carry::default();
         for query in &queries {
             visits.clear();
             let known = self.precomputed.filter(|sites| sites.serves(query));
@@ -103,13 +114,20 @@ impl<M: PhotonMap> Answerer<'_, M> {
                 counts.attempts += 1;
                 counts.no_site += u64::from(outcome == Outcome::NoSite);
             } else {
-                counts.attempts += u64::from(self.search.run(self.map, query.position, &mut found, &mut visits));
+                counts.attempts += u64::from(if watched {
+                    self.find(query.position, &mut carry, &mut found, &mut visits)
+                } else {
+                    self.find(query.position, &mut carry, &mut found, &mut Blind)
+                });
                 counts.short += u64::from(!found.is_full());
+                if let Some(lookups) = &mut lookups {
+                    lookups.add(query, &found, &visits);
+                }
             }
             counts.accesses += visits.len() as u64 + if implied { visits.rereads() } else { 0 };
             if let Some(encoder) = &mut encoder {
                 encoder.begin(&[query.pixel]);
-                visits.runs().for_each(|(region, records)| encoder.records(region, records));
+                visits.runs().for_each(|(region, records)| self.encode(encoder, region, records));
                 encoder.end();
             }
             if let Some((estimate, film)) = self.estimate {
@@ -130,6 +148,26 @@ impl<M: PhotonMap> Answerer<'_, M> {
             }
         }
         let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
-        Ok(Answered { trace, tally, contributions, cached, counts })
+        Ok(Answered { trace, tally, contributions, cached, counts, lookups })
+    }
+
+    #[inline]
+    fn find(&self, point: [f32; 3], carry: &mut Carry, found: &mut Nearest, eyes: &mut impl AccessObserver) -> u32 {
+        match self.carry {
+            true => carry.run(&self.search, self.map, point, found, eyes),
+            false => self.search.run(self.map, point, found, eyes),
+        }
+    }
+
+    /// Reads of whole records, which a region holds packed or padded.
+    fn encode(&self, encoder: &mut BlockEncoder<'_>, region: u16, records: &[u32]) {
+        let padding = self.map.padding();
+        if padding.is_none() {
+            return encoder.records(region, records);
+        }
+        let size = self.regions.map_or(0, |regions| regions[usize::from(region)].record_size);
+        for &record in records {
+            encoder.access(Access::read(region, offset_of(record, size, padding), size));
+        }
     }
 }

@@ -33,6 +33,7 @@ impl PhotonMap for BruteForce {
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         for (id, &position) in (0..).zip(&self.positions) {
             eyes.read(0, id);
+            eyes.examined(1);
             found.show(distance_squared(point, position), id);
         }
     }

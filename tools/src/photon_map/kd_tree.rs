@@ -3,7 +3,8 @@
 //! Bentley, *Multidimensional binary search trees used for associative searching*, CACM 18(9), 1975; Jensen, *Realistic
 //! Image Synthesis Using Photon Mapping*, 2001, appendix B.
 
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared};
+use super::layout::{Layout, left_size, place};
+use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared, extent};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 
@@ -17,16 +18,8 @@ pub struct KdTree {
     nodes: Vec<Node>,
     /// Which record of the traced memory each node is; empty if node i is record i - 1.
     places: Vec<u32>,
-}
-
-/// In which order the nodes lie in the traced memory. The tree, and the neighbours it finds, are the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Layout {
-    /// Level by level: children of node i at 2i and 2i + 1, no pointers
-    #[default]
-    Heap,
-    /// Depth first: a node, its left subtree, its right subtree
-    Preorder,
+    /// Bytes of the lines that no record crosses, if the records are padded.
+    line: Option<u32>,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -59,59 +52,33 @@ impl KdTree {
         check(photons)?;
         let mut rest: Vec<Node> =
             (0..).zip(photons).map(|(id, photon)| Node { position: photon.position, id_and_axis: id }).collect();
-        let mut cell = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for node in &rest {
-            for axis in 0..3 {
-                cell.0[axis] = cell.0[axis].min(node.position[axis]);
-                cell.1[axis] = cell.1[axis].max(node.position[axis]);
-            }
-        }
+        let cell = extent(rest.iter().map(|node| node.position));
         let mut nodes = vec![Node::default(); rest.len()];
         balance(&mut nodes, 1, &mut rest, cell);
-        let places = match layout {
-            Layout::Heap => vec![],
-            Layout::Preorder => preorder(nodes.len()),
-        };
-        Ok(Self { nodes, places })
+        let places = layout.places(nodes.len());
+        Ok(Self { nodes, places, line: None })
+    }
+
+    /// The same tree with its records padded, so that none crosses from one line of this many bytes into the next.
+    ///
+    /// # Panics
+    /// If a line is smaller than a record.
+    #[must_use]
+    pub fn padded(self, line: u32) -> Self {
+        assert!(line as usize >= size_of::<Photon>(), "a record must fit a line");
+        Self { line: Some(line), ..self }
     }
 
     /// Which record of the traced memory a node is.
     #[inline(always)]
     fn record(&self, node: usize) -> u32 {
-        self.places.get(node - 1).copied().unwrap_or((node - 1) as u32)
+        place(&self.places, node)
     }
 
     /// Split axis and photon id of each node, in the order of the traced memory.
     pub fn nodes(&self) -> impl Iterator<Item = (usize, u32)> {
         self.nodes.iter().map(|node| (node.axis(), node.id()))
     }
-}
-
-/// Number of nodes in the left subtree of a left-balanced tree of `n` nodes: all levels full but the last, which fills
-/// from the left.
-fn left_size(n: usize) -> usize {
-    if n < 2 {
-        return 0;
-    }
-    let full = 1 << n.ilog2();
-    let last = n - (full - 1);
-    (full / 2 - 1) + last.min(full / 2)
-}
-
-/// The record that each node of a left-balanced tree is when nodes are laid out depth first.
-fn preorder(count: usize) -> Vec<u32> {
-    let mut places = vec![0; count];
-    // Subtrees yet to be placed, the next one last.
-    let mut subtrees = vec![1];
-    let mut next = 0;
-    while let Some(node) = subtrees.pop() {
-        if node <= count {
-            places[node - 1] = next;
-            next += 1;
-            subtrees.extend([2 * node + 1, 2 * node]);
-        }
-    }
-    places
 }
 
 fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f32; 3])) {
@@ -138,12 +105,21 @@ impl PhotonMap for KdTree {
     fn regions(&self, reread: bool) -> Vec<Region> {
         let record = size_of::<Photon>() as u32;
         let nodes = u32::try_from(self.nodes.len()).expect("checked when built");
-        let coding = if self.places.is_empty() { Coding::HeapWalk { nodes, reread } } else { Coding::Records };
-        lay_out([("kd nodes".into(), u64::from(nodes) * u64::from(record), record, coding)])
+        let heap = self.places.is_empty() && self.line.is_none();
+        let coding = if heap { Coding::HeapWalk { nodes, reread } } else { Coding::Records };
+        let bytes = match self.line {
+            Some(line) => u64::from(nodes.div_ceil(line / record)) * u64::from(line),
+            None => u64::from(nodes) * u64::from(record),
+        };
+        lay_out([("kd nodes".into(), bytes, record, coding)])
     }
 
     fn len(&self) -> usize {
         self.nodes.len()
+    }
+
+    fn padding(&self) -> Option<u32> {
+        self.line
     }
 
     /// Jensen's search: the child on the query's side first, then the other if the splitting plane lies within the
@@ -161,8 +137,9 @@ impl PhotonMap for KdTree {
         let mut depth = 0;
         let mut at = 1;
         loop {
-            let node = nodes[at - 1];
+            let node = &nodes[at - 1];
             eyes.read(0, self.record(at));
+            eyes.examined(1);
             let left = 2 * at;
             if left <= count {
                 let axis = node.axis();
@@ -197,27 +174,9 @@ impl PhotonMap for KdTree {
                 }
                 depth -= 1;
                 eyes.reread(0, self.record(parent as usize));
-                let node = nodes[parent as usize - 1];
+                let node = &nodes[parent as usize - 1];
                 found.show(distance_squared(point, node.position), node.id());
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn preorder_places_a_node_before_its_left_subtree_before_its_right() {
-        // Six nodes: 1 (2 (4 5) 3 (6)).
-        assert_eq!(preorder(6), [0, 1, 4, 2, 3, 5]);
-        assert_eq!(preorder(0), [0; 0]);
-    }
-
-    #[test]
-    fn the_left_subtree_fills_the_last_level_from_the_left() {
-        let sizes: Vec<_> = (0..=15).map(left_size).collect();
-        assert_eq!(sizes, [0, 0, 1, 1, 2, 3, 3, 3, 4, 5, 6, 7, 7, 7, 7, 7]);
     }
 }

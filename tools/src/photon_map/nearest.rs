@@ -41,23 +41,25 @@ impl Nearest {
     pub fn show(&mut self, distance_squared: f32, id: u32) {
         // Also false for NaN.
         if distance_squared <= self.bound {
-            self.insert(u64::from(distance_squared.to_bits()) << 32 | u64::from(id));
+            let key = u64::from(distance_squared.to_bits()) << 32 | u64::from(id);
+            if self.keys.len() < self.k {
+                self.keys.push(key);
+                if self.keys.len() == self.k {
+                    self.make_heap();
+                }
+            } else if key < self.keys[0] {
+                self.sift_down(0, key);
+                self.tighten();
+            }
         }
     }
 
-    fn insert(&mut self, key: u64) {
-        if self.keys.len() < self.k {
-            self.keys.push(key);
-            if self.keys.len() == self.k {
-                for at in (0..self.k / 2).rev() {
-                    self.sift_down(at, self.keys[at]);
-                }
-                self.tighten();
-            }
-        } else if key < self.keys[0] {
-            self.sift_down(0, key);
-            self.tighten();
+    #[cold]
+    fn make_heap(&mut self) {
+        for at in (0..self.k / 2).rev() {
+            self.sift_down(at, self.keys[at]);
         }
+        self.tighten();
     }
 
     /// Puts `key` at `at` or below it, wherever the heap wants it.

@@ -10,6 +10,12 @@ pub trait AccessObserver {
     fn reread(&mut self, region: u16, record: u32) {
         let _ = (region, record);
     }
+
+    /// The distances of this many photons are computed.
+    #[inline(always)]
+    fn examined(&mut self, photons: usize) {
+        let _ = photons;
+    }
 }
 
 /// Sees nothing and costs nothing.
@@ -26,6 +32,7 @@ pub struct Visits {
     /// Do second touches count as reads?
     log_rereads: bool,
     rereads: u64,
+    examined: u64,
     records: Vec<u32>,
     /// Region and end (in `records`) of each run of reads of one region.
     runs: Vec<(u16, usize)>,
@@ -44,9 +51,16 @@ impl Visits {
         self.rereads
     }
 
+    /// Number of photons whose distance was computed.
+    #[must_use]
+    pub const fn photons_examined(&self) -> u64 {
+        self.examined
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.rereads = 0;
+        self.examined = 0;
         self.records.clear();
         self.runs.clear();
     }
@@ -90,6 +104,11 @@ impl AccessObserver for Visits {
         if self.log_rereads {
             self.read(region, record);
         }
+    }
+
+    #[inline]
+    fn examined(&mut self, photons: usize) {
+        self.examined += photons as u64;
     }
 }
 

@@ -80,7 +80,27 @@ impl Search {
         found: &mut Nearest,
         eyes: &mut impl AccessObserver,
     ) -> u32 {
-        let mut radius = self.start.min(self.max_dist);
+        self.run_within(f32::INFINITY, map, point, found, eyes)
+    }
+
+    /// As [`run`](Self::run), where k photons are known to lie within `sure`, in scene units.
+    #[inline]
+    fn run_within(
+        &self,
+        sure: f32,
+        map: &impl PhotonMap,
+        point: [f32; 3],
+        found: &mut Nearest,
+        eyes: &mut impl AccessObserver,
+    ) -> u32 {
+        // An approximate map reads no less for a smaller radius, and may never find k photons.
+        let start = match map.is_exact() {
+            // A hint a little below what is sure to do would seldom save much and sometimes fail.
+            true if self.start * 2.0 < sure => self.start,
+            true => sure,
+            false => self.max_dist,
+        };
+        let mut radius = start.min(self.max_dist);
         let mut attempts = 1;
         loop {
             found.restart(radius * radius);
@@ -91,7 +111,44 @@ impl Search {
             }
             attempts += 1;
             // Past the square root of the largest number only infinity is left to try.
-            radius = if radius > 1e18 { f32::INFINITY } else { radius * 2.0 }.min(self.max_dist);
+            let larger = if radius > 1e18 { f32::INFINITY } else { radius * 2.0 };
+            radius = if radius < sure { larger.min(sure) } else { larger }.min(self.max_dist);
         }
+    }
+}
+
+/// What the search before says of the next: the photons found for one point lie about another as well.
+///
+/// The k nearest photons of a point q' lie within r of it, so at least k lie within |q - q'| + r of q: the next search
+/// can start there and never finds too few. A chain of searches is one stretch of the stream; it must be cut where the
+/// stream says, never where threads do, or the reads would depend on them.
+#[derive(Clone, Debug, Default)]
+pub struct Carry {
+    /// Point and k-th distance of the search before, if it found k photons.
+    last: Option<([f32; 3], f32)>,
+}
+
+impl Carry {
+    /// A radius within which k photons lie about `point`; infinite if none is known.
+    fn sure(&self, point: [f32; 3]) -> f32 {
+        let Some((last, radius)) = self.last else { return f32::INFINITY };
+        let between = super::distance_squared(last, point).sqrt();
+        // Each of the numbers is rounded by parts of 2^-22 at most, or is so small that its square is not exact.
+        (between + radius) * 1.000_01 + 1e-18
+    }
+
+    /// Finds the photons nearest to `point` as [`Search::run`] does, starting from what the search before knew.
+    #[inline]
+    pub fn run(
+        &mut self,
+        search: &Search,
+        map: &impl PhotonMap,
+        point: [f32; 3],
+        found: &mut Nearest,
+        eyes: &mut impl AccessObserver,
+    ) -> u32 {
+        let attempts = search.run_within(self.sure(point), map, point, found, eyes);
+        self.last = found.farthest().filter(|_| found.is_full()).map(|(distance, _)| (point, distance.sqrt()));
+        attempts
     }
 }

@@ -3,12 +3,12 @@
 use super::*;
 use crate::random::Random;
 
-fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
+pub(super) fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
     let up = [0.0, 1.0, 0.0];
     positions.into_iter().map(|p| Photon::new(p, [1.0; 3], [0.5; 3], up, up).unwrap()).collect()
 }
 
-fn random_points(n: usize, mut map: impl FnMut([f32; 3]) -> [f32; 3]) -> Vec<[f32; 3]> {
+pub(super) fn random_points(n: usize, mut map: impl FnMut([f32; 3]) -> [f32; 3]) -> Vec<[f32; 3]> {
     let mut random = Random::new(&[n as u64]);
     (0..n).map(|_| map([(); 3].map(|()| random.unit()))).collect()
 }
@@ -55,23 +55,128 @@ fn query_points(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
     at.chain(beside).chain([[1e9, -1e9, 0.0], [0.0; 3]]).collect()
 }
 
+/// Every exact map, in every form that it has; fixed cells have room for everything.
+fn exact_maps(photons: &[Photon], k: usize) -> Vec<(String, AnyMap)> {
+    let mut options = vec![];
+    for line in ["32", "128", "320"] {
+        options.extend([
+            format!("--map bucket-kd --line {line}"),
+            format!("--map vvh --line {line}"),
+            format!("--map kdb --line {line}"),
+            format!("--map grid-fixed --slots {} --line {line}", photons.len().max(1)),
+        ]);
+    }
+    options
+        .extend(["--map kd", "--map kd --layout preorder", "--map kd --layout veb", "--map grid"].map(str::to_owned));
+    options.extend(
+        ["--map kdb --fill 0.4", "--map kdb --pages boxes", "--map kdb --pages boxes --line 64 --fill 0.1"]
+            .map(str::to_owned),
+    );
+    options.push("--map bucket-kd --layout veb --line 64".into());
+    options.into_iter().map(|options| (options.clone(), build(&options, photons, k))).collect()
+}
+
+/// The map that these options of the command line ask for.
+pub(super) fn build(options: &str, photons: &[Photon], k: usize) -> AnyMap {
+    use clap::{Args as _, FromArgMatches as _};
+    let command = MapOptions::augment_args(clap::Command::new("test").no_binary_name(true));
+    let matches = command.try_get_matches_from(options.split_whitespace()).unwrap();
+    let options = MapOptions::from_arg_matches(&matches).unwrap();
+    assert_eq!(options.problem(), None);
+    options.build(photons, k).unwrap()
+}
+
 #[test]
-fn the_kd_tree_finds_what_brute_force_finds() {
+fn every_exact_map_finds_what_brute_force_finds() {
     for (name, positions) in cases() {
         let photons = photons(positions.iter().copied());
-        let tree = KdTree::build(&photons, Layout::Heap).unwrap();
         let oracle = BruteForce::build(&photons).unwrap();
-        for k in [1, 2, 10, 100, 500, photons.len().max(1), photons.len() + 1] {
-            for max_dist in [0.0, 1e-7, 0.05, 1.0, f32::INFINITY] {
+        for (map_name, map) in exact_maps(&photons, 10) {
+            assert!(map.is_exact() && map.len() == photons.len());
+            for k in [1, 10, 100, photons.len().max(1), photons.len() + 1] {
                 let (mut found, mut expected) = (Nearest::new(k, 0.0), Nearest::new(k, 0.0));
-                for point in query_points(&positions) {
-                    Search::new(k, max_dist).run(&oracle, point, &mut expected, &mut Blind);
-                    Search::new(k, max_dist).run(&tree, point, &mut found, &mut Blind);
-                    assert_eq!(found.sorted(), expected.sorted(), "{name}, k {k}, max {max_dist}, {point:?}");
+                for max_dist in [0.0, 1e-7, 0.05, f32::INFINITY] {
+                    for point in query_points(&positions).into_iter().step_by(if k > 100 { 7 } else { 2 }) {
+                        Search::new(k, max_dist).run(&oracle, point, &mut expected, &mut Blind);
+                        Search::new(k, max_dist).run(&map, point, &mut found, &mut Blind);
+                        let asked = format!("{map_name} on {name}, k {k}, max {max_dist}, {point:?}");
+                        assert!(found.sorted() == expected.sorted(), "{asked}");
+                    }
                 }
             }
         }
     }
+}
+
+#[test]
+fn reads_lie_within_their_regions_and_are_told_apart() {
+    let photons = photons(random_points(3000, |[x, y, _]| [x, 0.0, y]));
+    for (name, map) in exact_maps(&photons, 50) {
+        let regions = map.regions(false);
+        let mut visits = Visits::default();
+        for photon in photons.iter().step_by(300) {
+            map.nearest(photon.position, &mut Nearest::new(50, f32::INFINITY), &mut visits);
+        }
+        let mut read = vec![0; regions.len()];
+        for (region, records) in visits.runs() {
+            let records_of_region =
+                regions[usize::from(region)].size / u64::from(regions[usize::from(region)].record_size);
+            assert!(records.iter().all(|&record| u64::from(record) < records_of_region), "{name}");
+            read[usize::from(region)] += records.len();
+        }
+        assert!(read.iter().all(|&reads| reads > 0), "{name}: {read:?}");
+        assert!(visits.photons_examined() >= 500, "{name}");
+    }
+}
+
+#[test]
+fn what_is_carried_from_search_to_search_changes_reads_and_not_neighbours() {
+    for (name, positions) in cases() {
+        let photons = photons(positions.iter().copied());
+        for options in ["--map kd", "--map bucket-kd", "--map kdb", "--map grid"] {
+            let map = build(options, &photons, 20);
+            let (mut found, mut expected) = (Nearest::new(20, 0.0), Nearest::new(20, 0.0));
+            for max_dist in [0.03, f32::INFINITY] {
+                let plain = Search::new(20, max_dist);
+                for search in [plain, plain.fit_start(&map, &photons), Search { start: 1e-9, ..plain }] {
+                    let mut carry = Carry::default();
+                    for point in query_points(&positions) {
+                        plain.run(&map, point, &mut expected, &mut Blind);
+                        let attempts = carry.run(&search, &map, point, &mut found, &mut Blind);
+                        assert!(found.sorted() == expected.sorted(), "{options} on {name}, {search:?}, {point:?}");
+                        // What is carried is enough: only a hint below it can be too small.
+                        assert!(attempts == 1 || search != plain, "{options} on {name}, {point:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn carrying_saves_reads_where_queries_are_neighbours() {
+    let positions = random_points(20_000, |[x, y, _]| [x, 0.0, y]);
+    let photons = photons(positions.iter().copied());
+    let map = build("--map bucket-kd", &photons, 100);
+    let search = Search::new(100, f32::INFINITY).fit_start(&map, &photons);
+    let (mut found, mut carry) = (Nearest::new(100, 0.0), Carry::default());
+    let (mut plain, mut carried) = (0u64, 0u64);
+    for step in 0..1000u16 {
+        let point = [0.3 + f32::from(step) * 1e-4, 0.0, 0.5];
+        search.run(&map, point, &mut found, &mut plain);
+        carry.run(&search, &map, point, &mut found, &mut carried);
+    }
+    assert!(carried * 10 < plain * 9, "{carried} {plain}");
+}
+
+#[test]
+fn padded_records_lie_in_lines() {
+    let photons = photons(random_points(100, |p| p));
+    for (line, bytes) in [(32, 3200), (128, 17 * 128), (256, 9 * 256)] {
+        let map = build(&format!("--map kd --pad --line {line}"), &photons, 10);
+        assert_eq!((map.padding(), map.regions(false)[0].size), (Some(line), bytes));
+    }
+    assert_eq!(build("--map kd", &photons, 10).padding(), None);
 }
 
 #[test]
@@ -125,7 +230,11 @@ fn each_attempt_is_one_walk_from_the_root() {
 #[test]
 fn layouts_change_places_and_nothing_else() {
     let photons = photons(random_points(1000, |p| p));
-    let trees = [Layout::Heap, Layout::Preorder].map(|layout| KdTree::build(&photons, layout).unwrap());
+    layouts_agree([Layout::Heap, Layout::Preorder].map(|layout| KdTree::build(&photons, layout).unwrap()));
+    layouts_agree([Layout::Heap, Layout::Veb].map(|layout| KdTree::build(&photons, layout).unwrap()));
+}
+
+fn layouts_agree(trees: [KdTree; 2]) {
     let mut places: Vec<std::collections::BTreeMap<u32, u32>> = vec![];
     for point in query_points(&[[0.5; 3]]) {
         let runs = trees.each_ref().map(|tree| {
@@ -168,11 +277,18 @@ fn every_photon_is_one_node_and_the_left_is_never_right() {
 #[test]
 fn a_million_identical_photons_build_and_search() {
     let photons = photons(vec![[0.5; 3]; 1_000_000]);
-    let tree = KdTree::build(&photons, Layout::Heap).unwrap();
-    let mut found = Nearest::new(100, f32::INFINITY);
-    tree.nearest([0.5, 0.5, 0.4], &mut found, &mut Blind);
-    let expected: Vec<_> = (0..100).map(|id| (found.bound(), id)).collect();
-    assert_eq!(found.sorted(), expected);
+    for options in ["kd", "kd --layout veb", "bucket-kd", "vvh", "kdb", "grid", "grid-fixed", "block-hash"] {
+        let start = std::time::Instant::now();
+        let map = build(&format!("--map {options}"), &photons, 100);
+        let mut found = Nearest::new(100, f32::INFINITY);
+        map.nearest([0.5, 0.5, 0.4], &mut found, &mut Blind);
+        if map.is_exact() {
+            let expected: Vec<_> = (0..100).map(|id| (found.bound(), id)).collect();
+            assert_eq!(found.sorted(), expected, "{options}");
+        }
+        // A quadratic build would take hours.
+        assert!(start.elapsed().as_secs() < 60, "{options}: {:?}", start.elapsed());
+    }
 }
 
 #[test]
