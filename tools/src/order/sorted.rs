@@ -17,8 +17,8 @@ pub struct Limits {
     pub announce: Box<dyn Fn()>,
 }
 
-/// Bytes of memory for each query that is sorted: the record, and its key and place.
-const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u64>()) as u64;
+/// Bytes of memory for each query that is sorted: the record, its key, and key and place together.
+const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u32>() + size_of::<u64>()) as u64;
 
 /// Sorts queries by a 32-bit key; equal keys keep the order in which they came.
 pub struct Sorted<K> {
