@@ -3,7 +3,11 @@
 CHART_ORDERS := scanline tiled binned binned-hashed tiled-hilbert hashed hilbert morton leaf random partition snowplow
 CHART_SCENE := --size 96x96
 
-charts-cache: out/charts/sizes.svg out/charts/ways.svg out/charts/lanes.svg ## Fetches of every order against size, ways, lanes (-j2: 6 minutes)
+.SECONDEXPANSION:
+
+CHART_LANES := 4 16 64
+
+charts-cache: out/charts/sizes.svg out/charts/ways.svg out/charts/lanes.svg out/charts/parts.svg $(CHART_LANES:%=out/charts/sizes-%.svg) ## Fetches of every order against size, ways, lanes (-j2: 12 minutes)
 
 out/charts/map.pmp: | programs
 	mkdir -p $(@D)
@@ -21,8 +25,17 @@ out/charts/%.ways: out/charts/%.pmt
 out/charts/%.lanes: out/charts/%.pmt
 	$(LAUNCH) $(BIN)/pm-cachesim --lanes 1,4,16,64 --format csv $< > $@
 
-out/charts/%.csv: $(CHART_ORDERS:%=out/charts/%.sizes) $(CHART_ORDERS:%=out/charts/%.ways) $(CHART_ORDERS:%=out/charts/%.lanes)
-	$(JOIN) $(CHART_ORDERS:%=out/charts/%.$*) > $@
+# The same, a part of each batch (scanline, tile; after an order over the whole image: the image) in each lane.
+out/charts/%.parts: out/charts/%.pmt
+	$(LAUNCH) $(BIN)/pm-cachesim --lanes 1,4,16,64 --lanes-from parts --format csv $< > $@
+
+$(foreach lanes,$(CHART_LANES),$(CHART_ORDERS:%=out/charts/%.sizes-$(lanes))): out/charts/%: $$(basename out/charts/$$*).pmt
+	$(LAUNCH) $(BIN)/pm-cachesim --curve --sizes 4K..16M --lanes $(lastword $(subst -, ,$*)) --format csv $< > $@
+
+CHART_TABLES := sizes ways lanes parts $(CHART_LANES:%=sizes-%)
+
+$(CHART_TABLES:%=out/charts/%.csv): out/charts/%.csv: $$(addprefix out/charts/,$$(addsuffix .$$*,$$(CHART_ORDERS)))
+	$(JOIN) $^ > $@
 
 CHART = $(BIN)/pm-chart $< -y fetches_per_query --by order --y-scale log10 -o $@
 
@@ -35,4 +48,10 @@ out/charts/ways.svg: out/charts/ways.csv
 out/charts/lanes.svg: out/charts/lanes.csv
 	$(CHART) -x lanes --x-scale log2 --title 'Fetches per query and searches in flight over one cache of 128 KiB'
 
-.PRECIOUS: out/charts/%.pmt out/charts/%.sizes out/charts/%.ways out/charts/%.lanes out/charts/%.csv
+out/charts/parts.svg: out/charts/parts.csv
+	$(CHART) -x lanes --x-scale log2 --title 'The same, each lane with a part of a batch of its own'
+
+$(CHART_LANES:%=out/charts/sizes-%.svg): out/charts/%.svg: out/charts/%.csv
+	$(CHART) -x cache_bytes --title 'Fetches per query and size of the cache, $(lastword $(subst -, ,$*)) searches in flight'
+
+.PRECIOUS: out/charts/%.pmt

@@ -101,7 +101,7 @@ struct Args {
     /// Describe lookups, map and its building in a .csv, .json or text file
     ///
     /// Approximate maps are compared with exact answers for 1,000 queries. `-` is standard output, with --no-trace.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", hide_short_help = true)]
     report: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArgs,

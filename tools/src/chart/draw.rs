@@ -112,9 +112,9 @@ impl Plot {
 
         let names: Vec<&str> = self.series.iter().chain(&self.reference).map(|series| series.name.as_str()).collect();
         let width = i32::try_from(look.size.0)?;
-        // The library measures text only with the fonts of a system; seven pixels a letter is about right.
+        // The library measures text only with the fonts of a system; six pixels a letter is about right.
         let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-        let legend = i32::try_from(longest)?.saturating_mul(7).saturating_add(44).min(width / 2);
+        let legend = i32::try_from(longest)?.saturating_mul(6).saturating_add(44).min(width / 2);
         let (left, right) = root.split_horizontally(width - legend);
 
         let mut builder = ChartBuilder::on(&left);
