@@ -21,20 +21,20 @@ impl Histogram {
     #[inline]
     fn reserve(&mut self, touched: u64) {
         if self.at.len() < touched as usize {
-            self.at.resize((touched as usize).next_power_of_two(), 0);
+            self.at.resize((touched + touched / 8) as usize + 64, 0);
         }
     }
 
     /// By lines of the cache, from none on: the events at a distance of that or more. Ends where it no longer changes.
-    fn at_least(&self) -> Vec<u64> {
-        let mut sum = self.never;
+    fn at_least(mut self) -> Vec<u64> {
         let used = self.at.iter().rposition(|&n| n > 0).map_or(0, |last| last + 1);
-        let mut sums = vec![sum; used + 1];
-        for (total, n) in sums.iter_mut().zip(&self.at[..used]).rev() {
-            sum += n;
-            *total = sum;
+        self.at.truncate(used);
+        self.at.push(self.never);
+        // In place: with a line for each of these numbers, they are most of the memory.
+        for i in (0..used).rev() {
+            self.at[i] += self.at[i + 1];
         }
-        sums
+        self.at
     }
 }
 
@@ -101,12 +101,8 @@ impl CurveStack {
 
     /// The curve, given what is the same for all sizes.
     pub(super) fn finish(self, trace: TraceCounts) -> Curve {
-        Curve {
-            trace,
-            compulsory: self.accesses.never,
-            fetches: self.accesses.at_least(),
-            write_backs: self.dirtied.at_least(),
-        }
+        let compulsory = self.accesses.never;
+        Curve { trace, compulsory, fetches: self.accesses.at_least(), write_backs: self.dirtied.at_least() }
     }
 }
 
