@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures charts-cache scenes test check full-size causes stability bench man clean
+.PHONY: help programs run accuracy pictures charts-cache frontier structures scenes test check full-size causes stability bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -117,6 +117,8 @@ out/causes/%.csv: out/full/map.pmp
 	$(LAUNCH) sh -c '$(or $(CAUSE_$*),$(SMALL_QUERIES) | $(BIN)/pm-gather $< $(OPTIONS_$*)) -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
 
 include scripts/charts.mk
+include scripts/frontier.mk
+include scripts/structures.mk
 include scripts/accuracy.mk
 include scripts/pictures.mk
 

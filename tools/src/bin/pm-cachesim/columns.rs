@@ -65,6 +65,8 @@ pub(crate) struct CacheResult {
     pub(crate) regions: Rc<Vec<String>>,
     /// Bytes of queries spilled to memory and read back by the stages before.
     pub(crate) query_bytes: u64,
+    /// Bytes on chip that the stages before needed to order the queries.
+    pub(crate) order_bytes: u64,
     /// Bytes read and written for results, if they were counted.
     pub(crate) result_bytes: Option<u64>,
 }
@@ -143,7 +145,8 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
         .count_perhaps("batch_floor", move |of| Some(of.sets(of_batches)?.sum()))
         .count("query_bytes", false, |of| of.query_bytes)
         .number("result_bytes", false, |of| perhaps(of.result_bytes))
-        .number("total_bytes", false, |of| perhaps(of.total_bytes()));
+        .number("total_bytes", false, |of| perhaps(of.total_bytes()))
+        .count("order_bytes_on_chip", false, |of| of.order_bytes);
     let regions: BTreeSet<String> =
         results.iter().flat_map(|of| of.regions.iter().map(|name| column_name(name))).collect();
     for region in regions {

@@ -24,19 +24,20 @@ pub(crate) struct Source {
     /// Names of the regions.
     regions: Rc<Vec<String>>,
     query_bytes: u64,
+    order_bytes: u64,
 }
 
 impl Source {
     /// One of our traces, read to its end.
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
-        let query_bytes = traffic::query_bytes(end);
-        Self { order: order_of(header), query_bytes, ..Self::foreign("", &header.regions) }
+        let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
+        Self { order: order_of(header), query_bytes, order_bytes, ..Self::foreign("", &header.regions) }
     }
 
     /// A trace in another format.
     pub(crate) fn foreign(format: &str, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        Self { order: format.to_owned(), regions, query_bytes: 0 }
+        Self { order: format.to_owned(), regions, query_bytes: 0, order_bytes: 0 }
     }
 }
 
@@ -49,6 +50,7 @@ impl Results {
             row,
             regions: Rc::clone(&source.regions),
             query_bytes: source.query_bytes,
+            order_bytes: source.order_bytes,
             result_bytes: findings.result_bytes,
         }));
         let mut exact = findings.curves.into_iter().map(Rc::new);

@@ -5,14 +5,28 @@ use pm_formats::{End, Header, Number};
 /// What stages call the bytes of queries that they wrote to memory and read back.
 const SPILLED: [&str; 2] = ["spilled_written", "spilled_read"];
 
-/// Bytes of queries that the stages before wrote to memory and read back; none if none speaks of it.
+/// Bytes of queries that the stages before wrote to memory and read back; none if none speaks of it. Where only a share of
+/// the queries was kept after that, it is their share of the bytes.
 pub(crate) fn query_bytes(end: &End) -> u64 {
+    let mut bytes = 0.0;
+    for (name, number) in end.stages.iter().flat_map(|stage| &stage.measures) {
+        match *number {
+            Number::Bytes(more) if SPILLED.contains(&name.as_str()) => bytes += more as f64,
+            Number::Real(share) if name == "share" => bytes *= share,
+            _ => {}
+        }
+    }
+    bytes.round() as u64
+}
+
+/// Bytes on chip that the stages before needed to order the queries; of several stages the sum, since they work at once.
+pub(crate) fn order_bytes(end: &End) -> u64 {
     let measures = end.stages.iter().flat_map(|stage| &stage.measures);
-    let spilled = measures.filter_map(|(name, number)| match number {
-        Number::Bytes(bytes) if SPILLED.contains(&name.as_str()) => Some(*bytes),
+    let on_chip = measures.filter_map(|(name, number)| match number {
+        Number::Bytes(bytes) if name == "on_chip" => Some(*bytes),
         _ => None,
     });
-    spilled.fold(0, u64::saturating_add)
+    on_chip.fold(0, u64::saturating_add)
 }
 
 /// Pixels of a tile, if each batch of the trace is one: the queries were made tile by tile (`tiled 16x16`), and whatever
@@ -47,6 +61,18 @@ mod tests {
         };
         end.stages = vec![stage("pm-reorder"), StageReport::new("pm-gather"), stage("pm-reorder")];
         assert_eq!(query_bytes(&end), 2 * 144);
+        // Of a quarter of the queries, and then more.
+        end.stages.insert(1, StageReport::new("pm-sample").with("share", Number::Real(0.25)));
+        assert_eq!(query_bytes(&end), 36 + 144);
+    }
+
+    #[test]
+    fn bytes_on_chip_of_all_stages_are_added() {
+        let stage = |bytes| {
+            StageReport::new("pm-reorder").with("on_chip", Number::Bytes(bytes)).with("on_chip", Number::Count(9))
+        };
+        let end = End { stages: vec![stage(100), StageReport::new("pm-gather"), stage(20)], ..End::default() };
+        assert_eq!(order_bytes(&end), 120);
     }
 
     #[test]
