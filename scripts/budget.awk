@@ -1,6 +1,8 @@
 # The point with the fewest bytes on chip whose traffic fits a memory bandwidth:
-#   awk -F, -v budget=35 -v fps=1 -f scripts/budget.awk out/frontier/450000.csv
+#   awk -v budget=35 -v fps=1 -f scripts/budget.awk out/frontier/450000.csv
 # `budget` is in GB/s, `fps` in frames a second.
+
+BEGIN { FS = "," }
 
 FNR == 1 { split("", at); for (i = 1; i <= NF; i++) at[$i] = i; file = FILENAME; best[file] = ""; order[++files] = file; next }
 

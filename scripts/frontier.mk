@@ -21,7 +21,7 @@ FRONTIER_SORTED := hilbert $(foreach store,$(STORES),partition-$(store) partitio
 FRONTIER_POINTS := $(FRONTIER_STREAMED) $(FRONTIER_SORTED)
 
 frontier: $(FRONTIER_PHOTONS:%=out/frontier/%.svg) ## Bytes on chip against total traffic, every order (half an hour with -j2; SHARE=64: a quarter)
-	@$(if $(BUDGET),awk -F, -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk $(FRONTIER_PHOTONS:%=out/frontier/%.csv),echo 'Charts: $^')
+	@$(if $(BUDGET),awk -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk $(FRONTIER_PHOTONS:%=out/frontier/%.csv),echo 'Charts: $^')
 
 out/frontier/%/map.pmp: | programs
 	mkdir -p $(@D)

@@ -24,7 +24,7 @@ pub struct Point {
     pub error: Option<f64>,
 }
 
-/// Points that belong together, in the order in which a line joins them.
+/// Points that belong together, from left to right; on an axis of words, in the order of the table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Its name in the legend.

@@ -156,6 +156,11 @@ impl Plot {
                 None => side.push(Series { name: row.series, points: vec![point] }),
             }
         }
+        if !of_words {
+            // Lines go from left to right, in whatever order the rows came.
+            let all = series.iter_mut().chain(&mut reference);
+            all.for_each(|series| series.points.sort_by(|a, b| a.x.total_cmp(&b.x)));
+        }
         Ok(Self { x, y, series, reference })
     }
 }
@@ -247,6 +252,15 @@ hilbert,\"8K,full,128,lru\",8192,,
         assert_eq!(names, [("scanline", 2), ("hilbert", 1)]);
         assert_eq!(plot.series[0].points[1], Point { x: 8192.0, y: 80.0, error: Some(1.0) });
         assert_eq!(plot.series[1].points[0].error, None);
+    }
+
+    #[test]
+    fn lines_go_from_left_to_right() {
+        let plot = read(&selection(), "order,size,fetches\na,512,1\na,32,2\na,64,3\n").unwrap();
+        assert_eq!(
+            plot.series[0].points.iter().map(|p| (p.x, p.y)).collect::<Vec<_>>(),
+            [(32.0, 2.0), (64.0, 3.0), (512.0, 1.0)]
+        );
     }
 
     #[test]
