@@ -35,7 +35,8 @@ pub use quad_light::QuadLight;
 use texture::Texture;
 use warnings::Warnings;
 
-/// Distance from the origin in sizes of the scene from which single precision is too coarse for it to be tight.
+/// Distance from the origin in sizes of the scene from which single precision is too coarse for the light to be right: at
+/// 1e5 the map of a closed furnace is a third too bright, at 1e3 within a per cent.
 const FAR: f32 = 1e4;
 
 /// How OBJ and MTL files are understood.
@@ -345,10 +346,9 @@ impl Builder {
             bounds = Bounds { min: bounds.min.min(p), max: bounds.max.max(p) };
         }
         let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
-        if farthest > FAR * bounds.size().max_element() {
-            warnings.say(format!(
-                "{files}: {farthest} from the origin, more than {FAR} times its size: light gets lost; move it to the origin"
-            ));
+        let size = bounds.size().max_element();
+        if farthest > FAR * size {
+            return Err(SceneError::TooFar { files, farthest, size });
         }
         let scene = Scene {
             positions: self.positions,

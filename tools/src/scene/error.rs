@@ -70,6 +70,19 @@ pub enum SceneError {
         /// The files of the scene.
         files: String,
     },
+    /// So far from the origin that single precision cannot tell its points apart.
+    #[error(
+        "{files}: {farthest} from the origin, with a size of {size}: too far for single precision, light would be lost; \
+         move the scene to the origin before it is exported"
+    )]
+    TooFar {
+        /// The files of the scene.
+        files: String,
+        /// Greatest coordinate, in scene units.
+        farthest: f32,
+        /// Largest extent, in scene units.
+        size: f32,
+    },
     /// Nothing emits light.
     #[error("{files}: nothing emits light{lost}; give a material `Ke`, or add a light by --quad-light")]
     NoLight {

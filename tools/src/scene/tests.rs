@@ -289,7 +289,7 @@ fn files_are_merged() {
 /// Does a scene load the same at any scale and far from the origin?
 #[test]
 fn scale_and_offset() {
-    for (scale, offset) in [(1e-6, 0.0), (1.0, 1e6), (1e6, 0.0), (1e-6, 1e-3)] {
+    for (scale, offset) in [(1e-6, 0.0), (1.0, 8192.0), (1e6, 0.0), (1e-6, 1e-3)] {
         let vertex = |x: f64, y: f64| format!("v {} {} {offset}\n", x * scale + offset, y * scale + offset);
         let square = [vertex(0., 0.), vertex(1., 0.), vertex(1., 1.), vertex(0., 1.)].concat();
         let scene = load(format!("mtllib m.mtl\n{square}usemtl lamp\nf 1 2 3 4\n")).unwrap();
