@@ -92,6 +92,7 @@ include scripts/frontier.mk
 include scripts/structures.mk
 include scripts/accuracy.mk
 include scripts/pictures.mk
+include scripts/paper.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 

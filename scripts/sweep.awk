@@ -145,7 +145,8 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     n = split(text["scene"], parts, " ")
     for (i = 1; i <= n; i++) if (parts[i] ~ /\.obj$/) scene_needs = scene_needs " " parts[i]
     photons_file = "out/streams/" slug(text["scene"] " " text["photons"]) ".pmp"
-    queries_file = "out/streams/" slug(text["scene"] " " text["queries"]) ".pmq"
+    # What guides gather rays is in the name too.
+    queries_file = "out/streams/" slug(text["scene"] " " replace(text["queries"], "{photons}", slug(text["photons"]))) ".pmq"
     text["stream"] = replace(text["stream"], "{photons}", photons_file)
 
     pipe = text["command"]
@@ -155,13 +156,14 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
             " | pm-cachesim -q --format csv" (text["cache"] == "" ? "" : " " text["cache"])
     }
     needs = text["needs"]
-    if (index(pipe, "{photons}")) {
+    if (index(pipe text["queries"], "{photons}")) {
         needs = needs " " photons_file
         stream_rule(photons_file, scene_needs, "pm-photons", text["scene"], text["photons"])
     }
     if (index(pipe, "{queries}")) {
         needs = needs " " queries_file
-        stream_rule(queries_file, scene_needs, "pm-queries", text["scene"], text["queries"])
+        if (index(text["queries"], "{photons}")) scene_needs = scene_needs " " photons_file
+        stream_rule(queries_file, scene_needs, "pm-queries", text["scene"], replace(text["queries"], "{photons}", photons_file))
     }
     pipe = replace(replace(replace(pipe, "{photons}", photons_file), "{queries}", queries_file), "{out}", out)
     print out ".csv: " needs " | programs"
@@ -178,6 +180,8 @@ function stream_rule(file, needs, program, scene, options,   at, then) {
     print "RULE." file " := 1"
     print file ":" needs " | programs"
     print "\t$(call stream," replace(program " -q " scene " " options " -t $(THREADS)" then, ",", "$(comma)") ")"
+    # Rows outlive it: without it, it is made again only for rows that are missing.
+    print ".SECONDARY: " file
     print "endif"
 }
 

@@ -43,7 +43,6 @@ endif
 define sweep_rules
 out/$1.csv: $$(POINTS.$1)
 	@awk -v sweep=$1 -v list=1 -f scripts/sweep.awk scripts/words.csv $(filter %/$1.csv $1.csv,$(SWEEP_TABLES)) | awk -f scripts/join.awk > $$@
-.SECONDARY: $$(POINTS.$1)
 endef
 $(foreach name,$(SWEEP_NAMES),$(eval $(call sweep_rules,$(name))))
 

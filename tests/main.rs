@@ -22,6 +22,7 @@ mod scenes;
 mod slopes;
 mod streams;
 mod support;
+mod sweep;
 mod tidy;
 mod variants;
 mod view;
