@@ -18,6 +18,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("irradiance", &["hemisphere", "film", "formats"]),
     ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
     ("order", &["random", "formats"]),
+    ("page", &["chart", "size"]),
     ("parallel", &[]),
     ("photon_map", &["random", "formats"]), // never scene or transport: it is built from photons in a stream
     ("random", &[]),

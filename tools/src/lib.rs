@@ -13,6 +13,7 @@ pub mod image;
 pub mod irradiance;
 pub mod make_scene;
 pub mod order;
+pub mod page;
 pub mod parallel;
 pub mod photon_map;
 pub mod random;
