@@ -3,10 +3,14 @@
 use libm::{exp, fabs, lgamma, log, log1p, sqrt};
 use std::f64::consts::PI;
 
+/// So many degrees of freedom and more are the normal distribution, to seven digits; the fraction below converges the slower
+/// the more there are.
+const ENDLESS: f64 = 1e7;
+
 /// The chance that Student's t with `freedom` degrees of freedom (any positive number) lies between `-t` and `t`.
 #[must_use]
 pub fn student_within(t: f64, freedom: f64) -> f64 {
-    let square = t * t;
+    let (square, freedom) = (t * t, freedom.min(ENDLESS));
     1.0 - regularised_beta(freedom / (freedom + square), square / (freedom + square), freedom / 2.0, 0.5)
 }
 
