@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Who may know whom, among the modules of `tools`: a new module needs a line here, a new acquaintance a word, and both a
 /// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
 const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("cache", &["size", "random", "spool", "formats"]), // never photon_map: it sees accesses only
+    ("cache", &["size", "random", "spool", "statistics", "formats"]), // never photon_map: it sees accesses only
     ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),
@@ -27,6 +27,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("setting", &["cli", "scene", "formats"]),
     ("size", &[]),
     ("spool", &["formats"]),
+    ("statistics", &[]),
     ("transport", &["scene", "irradiance", "hemisphere", "order", "random", "formats"]),
     ("view", &["cli", "image", "random", "report", "formats"]),
 ];

@@ -22,5 +22,6 @@ pub mod scene;
 pub mod setting;
 pub mod size;
 pub mod spool;
+pub mod statistics;
 pub mod transport;
 pub mod view;
