@@ -23,3 +23,4 @@ pub mod size;
 pub mod spool;
 pub mod transport;
 pub mod view;
+pub mod windows;
