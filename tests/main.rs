@@ -26,3 +26,4 @@ mod sweep;
 mod tidy;
 mod variants;
 mod view;
+mod windows;
