@@ -25,3 +25,4 @@ mod support;
 mod tidy;
 mod variants;
 mod view;
+mod windows;
