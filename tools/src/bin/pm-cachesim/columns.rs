@@ -61,6 +61,8 @@ pub(crate) struct CacheResult {
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
     pub(crate) row: Row,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     /// Names of the regions of the trace.
     pub(crate) regions: Rc<Vec<String>>,
     /// Bytes of queries spilled to memory and read back by the stages before.
@@ -156,7 +158,7 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
             columns = columns.count(&name, false, move |of| of.region_fetches(&region));
         }
     }
-    columns.table(format, results)
+    columns.text("history", false, |of| of.history.to_string()).table(format, results)
 }
 
 /// One size of a curve: exact, from a sample of the lines, or both.
@@ -166,6 +168,8 @@ pub(crate) struct CurvePoint {
     pub(crate) order: String,
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     pub(crate) exact: Option<Rc<Curve>>,
     pub(crate) sampled: Option<Rc<SampledCurve>>,
     pub(crate) trace: TraceCounts,
@@ -267,5 +271,5 @@ pub(crate) fn of_curves(format: Format, points: &[CurvePoint]) -> Table {
             |of| of.mark().to_owned(),
         );
     }
-    columns.table(format, points)
+    columns.text("history", false, |of| of.history.to_string()).table(format, points)
 }

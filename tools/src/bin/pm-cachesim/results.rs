@@ -3,7 +3,7 @@
 use super::columns::{CacheResult, CurvePoint};
 use super::{Args, asked_wrongly, sizes, traffic};
 use pm_formats::trace::Region;
-use pm_formats::{End, Header};
+use pm_formats::{End, Header, as_commands};
 use pm_tools::cache::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways};
 use pm_tools::cli::usage;
 use pm_tools::report::Format;
@@ -21,6 +21,8 @@ pub(crate) struct Results {
 pub(crate) struct Source {
     /// The order of the queries, or the format of a foreign trace.
     order: String,
+    /// The commands that it came by, on one line as a shell reads them; of a foreign trace nothing is known.
+    history: Rc<str>,
     /// Names of the regions.
     regions: Rc<Vec<String>>,
     query_bytes: u64,
@@ -31,13 +33,14 @@ impl Source {
     /// One of our traces, read to its end.
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
-        Self { order: order_of(header), query_bytes, order_bytes, ..Self::foreign("", &header.regions) }
+        let history = as_commands(&header.history).trim_end().replace('\n', "; ").into();
+        Self { order: order_of(header), history, query_bytes, order_bytes, ..Self::foreign("", &header.regions) }
     }
 
     /// A trace in another format.
     pub(crate) fn foreign(format: &str, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        Self { order: format.to_owned(), regions, query_bytes: 0, order_bytes: 0 }
+        Self { order: format.to_owned(), history: "".into(), regions, query_bytes: 0, order_bytes: 0 }
     }
 }
 
@@ -47,6 +50,7 @@ impl Results {
         self.rows.extend(findings.rows.into_iter().map(|row| CacheResult {
             order: source.order.clone(),
             lanes,
+            history: Rc::clone(&source.history),
             row,
             regions: Rc::clone(&source.regions),
             query_bytes: source.query_bytes,
@@ -59,7 +63,8 @@ impl Results {
             let (exact, sampled) = (exact.next(), sampled.next());
             let trace = exact.as_ref().map(|curve| curve.trace).or(sampled.as_ref().map(|curve| curve.trace));
             let Some(trace) = trace else { return Ok(()) };
-            let mut point = CurvePoint { order: source.order.clone(), lanes, exact, sampled, trace, lines: 0 };
+            let (order, history) = (source.order.clone(), Rc::clone(&source.history));
+            let mut point = CurvePoint { order, lanes, history, exact, sampled, trace, lines: 0 };
             for lines in curve_sizes(args, &point)? {
                 point.lines = lines;
                 self.points.push(point.clone());
