@@ -88,6 +88,8 @@ pub(crate) struct CacheResult {
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
     pub(crate) found: Found,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     /// Names of the regions of the trace.
     pub(crate) regions: Rc<Vec<String>>,
     /// Bytes of queries spilled to memory and read back by the stages before.
@@ -280,7 +282,7 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
                 .ratio(&names[1], false, move |of| of.half_width(again(of).1));
         }
     }
-    columns.table(format, results)
+    columns.text("history", false, |of| of.history.to_string()).table(format, results)
 }
 
 /// One size of a curve: exact, from a sample of the lines, or both.
@@ -290,6 +292,8 @@ pub(crate) struct CurvePoint {
     pub(crate) order: String,
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     pub(crate) exact: Option<Rc<Curve>>,
     pub(crate) sampled: Option<Rc<SampledCurve>>,
     pub(crate) trace: TraceCounts,
@@ -391,5 +395,5 @@ pub(crate) fn of_curves(format: Format, points: &[CurvePoint]) -> Table {
             |of| of.mark().to_owned(),
         );
     }
-    columns.table(format, points)
+    columns.text("history", false, |of| of.history.to_string()).table(format, points)
 }
