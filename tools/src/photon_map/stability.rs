@@ -96,7 +96,7 @@ fn outcome(map: &AnyMap, stress: &Stress, oracle: &BruteForce) -> String {
     }
     let examined = visits.photons_examined() / points.len() as u64;
     assert!(same || !map.is_exact(), "{}: an exact map found other neighbours", stress.name);
-    let recall = Accuracy::measure(map, oracle, search, &points, None).mean_recall();
+    let recall = Accuracy::measure(map, oracle, search, &points, None, |_, _, _| {}).mean_recall();
     if same { format!("exact {examined}") } else { format!("{recall:.2} {examined}") }
 }
 
