@@ -217,7 +217,7 @@ fn gather(
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
     header.regions = map.regions(args.reread);
-    header.set_meaning("map", args.structure.map.name());
+    header.set_meaning("map", cli::word_for(args.structure.map));
     header.set_meaning("k", args.k);
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });

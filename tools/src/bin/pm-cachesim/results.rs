@@ -31,13 +31,13 @@ impl Source {
     /// One of our traces, read to its end.
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
-        Self { order: order_of(header), query_bytes, order_bytes, ..Self::foreign("", &header.regions) }
+        Self { order: order_of(header), query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
     }
 
     /// A trace in another format.
-    pub(crate) fn foreign(format: &str, regions: &[Region]) -> Self {
+    pub(crate) fn foreign(format: String, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        Self { order: format.to_owned(), regions, query_bytes: 0, order_bytes: 0 }
+        Self { order: format, regions, query_bytes: 0, order_bytes: 0 }
     }
 }
 

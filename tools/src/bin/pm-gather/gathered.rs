@@ -3,7 +3,7 @@
 use super::Args;
 use pm_formats::trace::Region;
 use pm_formats::{Header, Number, Photon};
-use pm_tools::cli::Output;
+use pm_tools::cli::{self, Output};
 use pm_tools::gather::{LightError, Lookups, RadianceEstimate, Scratch, SearchCounts};
 use pm_tools::photon_map::{Accuracy, AnyMap, BucketKdTree, Building, Layout, PhotonMap, Search};
 use pm_tools::report::{Column, Format, Table, Value};
@@ -72,7 +72,7 @@ impl Gathered<'_> {
         let per_query = |number: u64, digits: u8| Float(number as f64 / lookups.queries as f64, digits);
         let line = u64::from(self.args.structure.line);
         vec![
-            ("map", Text(self.args.structure.map.name().into())),
+            ("map", Text(cli::word_for(self.args.structure.map))),
             ("line", Int(line)),
             ("k", Int(self.search.k as u64)),
             ("photons", Int(self.photons.len() as u64)),
@@ -119,7 +119,10 @@ impl Gathered<'_> {
             ("light_bias", Float(light.bias(), 3)),
         ];
         if blocks.is_some() {
+            let options = &self.args.structure;
             values.extend([
+                ("budget", Int(options.budget.into())),
+                ("orphans", Value::Text(cli::word_for(options.orphans))),
                 ("blocks_wanted", Int(near.blocks_wanted())),
                 ("blocks_unreached", Int(near.blocks_unreached())),
                 ("blocks_missed_per_query", Float(near.blocks_missed as f64 / near.queries as f64, 4)),
