@@ -14,6 +14,7 @@ help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 include scripts/orders.mk
+include scripts/sweep.mk
 
 programs: ## Build the programs into target/release
 	$(CARGO) build --release
@@ -74,53 +75,24 @@ out/cornell.exr out/cornell.png &: out/caustics.pmp out/seen.pmq out/soft.exr
 	    --image out/cornell.exr --image out/cornell.png
 
 $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --format csv $< > $@
+	$(call row,pm-cachesim --format csv $<)
 
-# ---- make full-size: the paper's own size, through pipes and without storing the streams ----------------------------
+# ---- make full-size: the paper's own size, nothing left out ---------------------------------------------------------
 
-FULL := scanline scanline-inf scanline-preorder tiled-hilbert hilbert hilbert-inf hilbert-preorder
-
-full-size: $(FULL:%=out/full/%.csv) ## The paper's size (512 x 512, 100 gathers, 450,000 photons): 20 minutes on two cores
+full-size: out/full.csv out/variants.csv ## The paper's size (512 x 512, 100 gathers, 450,000 photons) in full: an hour with -j2
 	@awk -v tiles=1024 -v rays=$$((512 * 512 * 100)) -f scripts/compare.awk scripts/paper.csv $^
-
-out/full/map.pmp: | programs
-	mkdir -p out/full
-	$(LAUNCH) $(BIN)/pm-photons -n 450000 -t $(THREADS) -o $@
-
-# The order and the options of pm-gather, by the two halves of the target's name.
-OPTIONS_inf := --start-radius inf
-OPTIONS_preorder := --layout preorder
-OPTIONS_reread := --reread
-variant = $(filter inf preorder reread,$(lastword $(subst -, ,$*)))
-order = $(if $(variant),$(patsubst %-$(variant),%,$*),$*)
-
-out/full/%.csv: out/full/map.pmp
-	$(LAUNCH) sh -c '$(call ORDER_$(order),--size 512x512,$<,) | $(BIN)/pm-gather $< -t $(THREADS) $(OPTIONS_$(variant)) | $(BIN)/pm-cachesim --format csv' > $@
 
 # ---- make causes: what the fetches of the plain order depend on, at 64 x 64 pixels and the paper's 450,000 photons --
 
-CAUSES := scanline shuffled inf fixed-0.02 fixed-0.025 fixed-0.03 reread preorder photons-100000 photons-200000 random
-SMALL_QUERIES := $(BIN)/pm-queries --size 64x64
-CAUSE_shuffled = $(SMALL_QUERIES) --strata shuffled | $(BIN)/pm-gather $<
-CAUSE_random = $(SMALL_QUERIES) | $(BIN)/pm-reorder random | $(BIN)/pm-gather $<
-CAUSE_photons-100000 = $(BIN)/pm-photons -n 100000 -o out/causes/100000.pmp && $(SMALL_QUERIES) | $(BIN)/pm-gather out/causes/100000.pmp
-CAUSE_photons-200000 = $(BIN)/pm-photons -n 200000 -o out/causes/200000.pmp && $(SMALL_QUERIES) | $(BIN)/pm-gather out/causes/200000.pmp
-CAUSE_fixed-0.02 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.02
-CAUSE_fixed-0.025 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.025
-CAUSE_fixed-0.03 = $(SMALL_QUERIES) | $(BIN)/pm-gather $< --start-radius 0.03
-
-causes: $(CAUSES:%=out/causes/%.csv) ## What the fetches of the plain order depend on: strata, start radius, second touch, layout, photons
-	@awk -v tiles=16 -v rays=$$((64 * 64 * 100)) -f scripts/compare.awk scripts/paper.csv $^
-
-out/causes/%.csv: out/full/map.pmp
-	@mkdir -p out/causes
-	$(LAUNCH) sh -c '$(or $(CAUSE_$*),$(SMALL_QUERIES) | $(BIN)/pm-gather $< $(OPTIONS_$*)) -t $(THREADS) | $(BIN)/pm-cachesim --format csv' > $@
+causes: out/causes.csv ## What the fetches of the plain order depend on: strata, start radius, second touch, layout, photons
+	@awk -v tiles=16 -v rays=$$((64 * 64 * 100)) -f scripts/compare.awk scripts/paper.csv $<
 
 include scripts/charts.mk
 include scripts/frontier.mk
 include scripts/structures.mk
 include scripts/accuracy.mk
 include scripts/pictures.mk
+include scripts/paper.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,8 @@
 
 CHART_ORDERS := scanline tiled binned binned-hashed tiled-hilbert hashed hilbert morton leaf random partition snowplow
 CHART_SCENE := --size 96x96
+CHART_WAYS := 1,2,4,8,16,full
+CHART_LISTS := 1,4,16,64
 
 .SECONDEXPANSION:
 
@@ -17,20 +19,20 @@ out/charts/%.pmt: out/charts/map.pmp
 	$(LAUNCH) sh -c '$(call ORDER_$*,$(CHART_SCENE),$<,) | $(BIN)/pm-gather $< -t $(THREADS) -o $@'
 
 out/charts/%.sizes: out/charts/%.pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --curve --sizes 4K..16M --format csv $< > $@
+	$(call row,pm-cachesim --curve --sizes 4K..16M --format csv $<)
 
 out/charts/%.ways: out/charts/%.pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --ways 1,2,4,8,16,full --format csv $< > $@
+	$(call row,pm-cachesim --ways $(CHART_WAYS) --format csv $<)
 
 out/charts/%.lanes: out/charts/%.pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --lanes 1,4,16,64 --format csv $< > $@
+	$(call row,pm-cachesim --lanes $(CHART_LISTS) --format csv $<)
 
 # The same, a part of each batch (scanline, tile; after an order over the whole image: the image) in each lane.
 out/charts/%.parts: out/charts/%.pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --lanes 1,4,16,64 --lanes-from parts --format csv $< > $@
+	$(call row,pm-cachesim --lanes $(CHART_LISTS) --lanes-from parts --format csv $<)
 
 $(foreach lanes,$(CHART_LANES),$(CHART_ORDERS:%=out/charts/%.sizes-$(lanes))): out/charts/%: $$(basename out/charts/$$*).pmt
-	$(LAUNCH) $(BIN)/pm-cachesim --curve --sizes 4K..16M --lanes $(lastword $(subst -, ,$*)) --format csv $< > $@
+	$(call row,pm-cachesim --curve --sizes 4K..16M --lanes $(lastword $(subst -, ,$*)) --format csv $<)
 
 CHART_TABLES := sizes ways lanes parts $(CHART_LANES:%=sizes-%)
 

@@ -1,6 +1,7 @@
 # Sets the orders beside each other and beside the paper:
 #   awk -v tiles=64 -v rays=1048576 -f scripts/compare.awk scripts/paper.csv out/scanline.csv out/hilbert.csv ...
-# The first file holds the paper's figures, the others are what `pm-cachesim --format csv` prints, named after the order.
+# The first file holds the paper's figures, the others are what `pm-cachesim --format csv` prints, named after the order, or
+# a table of such rows with a column `point`. Of several caches the paper's own counts, of 128 KiB.
 # `tiles` is the number of 16 x 16 tiles of the image, `rays` the number of gather rays cast.
 #
 # The paper: Steinhurst, Coombe, Lastra, Reordering for Cache Conscious Photon Mapping, GI 2005. Its fetches per query
@@ -17,9 +18,13 @@ file == 1 { if (FNR > 1) { unit[$1] = $2; paper[$1] = $3 } next }
 
 FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 
+$at["cache_bytes"] != 131072 { next }
+
 {
     name = FILENAME
     sub(/.*\//, "", name); sub(/\.csv$/, "", name)
+    if ("point" in at) name = $at["point"]
+    if (FILENAME != counted) { counted = FILENAME; files++ }
     if (!printed++) {
         printf "%-18s %9s %9s %11s %12s %12s\n", "", "reads", "fetches", "fetches", "", "share of"
         printf "%-18s %9s %9s %11s %12s %12s   %-34s %s\n", "order", "per query", "per query", "per block", "MB", \
@@ -43,8 +48,8 @@ FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 
 END {
     # A row that is missing means a command that did not do its work, whatever exit code it gave.
-    if (printed != ARGC - 2) {
-        print "compare.awk: " (ARGC - 2) " results are wanted, " (printed + 0) " have a row; remove the empty ones and run again" > "/dev/stderr"
+    if (files != ARGC - 2) {
+        print "compare.awk: " (ARGC - 2) " results are wanted, " (files + 0) " have a row; remove the empty ones and run again" > "/dev/stderr"
         exit 1
     }
     if (queries && rays) {

@@ -1,11 +1,14 @@
-# Table 1 of Steinhurst, Coombe, Lastra, GI 2005, from the table that scripts/structures.awk makes, at lines of 128 bytes:
-#   awk -F, -v share=64 -f scripts/structures-table.awk out/structures/all.csv
+# Table 1 of Steinhurst, Coombe, Lastra, GI 2005, from the joined rows of structures.csv, at lines of 128 bytes:
+#   awk -F, -v share=64 -f scripts/structures-table.awk out/structures.csv
 # Twice: in fetches per query and in fetches per block, each of the whole image as far as a share of it tells.
+
+# Commas inside quotes are no separators.
+{ gsub(/"[^"]*"/, "text") }
 
 FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 
-$at["line_bytes"] == 128 {
-    map = $at["map"]; stream = $at["stream"]
+$at["line"] == 128 {
+    map = $at["map"]; stream = $at["order"]
     if (!(map in seen)) { seen[map] = 1; maps[++number] = map }
     query[map, stream] = $at["fetches_per_query"]
     block[map, stream] = $at["fetches_per_block"] * (stream == "hilbert" ? 1 : share)

@@ -23,6 +23,7 @@ mod scenes;
 mod slopes;
 mod streams;
 mod support;
+mod sweep;
 mod tidy;
 mod variants;
 mod view;

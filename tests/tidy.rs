@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Who may know whom, among the modules of `tools`: a new module needs a line here, a new acquaintance a word, and both a
 /// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
 const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("cache", &["size", "random", "spool", "formats"]), // never photon_map: it sees accesses only
+    ("cache", &["size", "random", "spool", "statistics", "formats"]), // never photon_map: it sees accesses only
     ("chart", &["size"]),
     ("cli", &["formats"]),
     ("film", &[]),
@@ -18,6 +18,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("irradiance", &["hemisphere", "film", "formats"]),
     ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
     ("order", &["random", "formats"]),
+    ("page", &["chart", "size"]),
     ("parallel", &[]),
     ("photon_map", &["random", "formats"]), // never scene or transport: it is built from photons in a stream
     ("random", &[]),
@@ -26,6 +27,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("setting", &["cli", "scene", "formats"]),
     ("size", &[]),
     ("spool", &["formats"]),
+    ("statistics", &[]),
     ("transport", &["scene", "irradiance", "hemisphere", "order", "random", "formats"]),
     ("view", &["cli", "image", "random", "report", "formats"]),
 ];

@@ -21,7 +21,8 @@
 //! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
 //!   It does not minimise write-backs, which are counted for what it keeps.
 //!
-//! With [`Lanes`] in front, several searches are in flight at a time over the same cache.
+//! With [`Lanes`] in front, several searches are in flight at a time over the same cache. [`Windows`] runs each window of a
+//! sampled trace through caches that begin empty, and estimates what the whole would have cost.
 //!
 //! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
 //! [`Policy`] and a line where a simulation makes its models.
@@ -46,6 +47,8 @@ mod shards;
 mod simulation;
 mod stack_distance;
 mod uncached;
+mod warmth;
+mod windows;
 mod working_set;
 
 #[cfg(test)]
@@ -56,6 +59,8 @@ mod measure_tests;
 mod shards_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod windows_tests;
 
 pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
 pub use curve::{Curve, TraceCounts};
@@ -67,4 +72,5 @@ pub use results::{ResultMemory, SECTOR_BYTES};
 pub use row::{More, RecordCounts, Row};
 pub use shards::{Estimate, LEAST_MODEL, SampledCurve};
 pub use simulation::{Simulation, SimulationError};
+pub use windows::{Counts, Interval, WindowError, WindowedRow, Windows};
 pub use working_set::{Distribution, WorkingSets};

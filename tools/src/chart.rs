@@ -5,11 +5,13 @@
 //! lines and letters is a library's.
 
 mod axis;
+mod colours;
 mod draw;
 mod frontier;
 mod select;
 
 pub use axis::{Axis, Scale};
+pub use colours::dark_style;
 pub use draw::Look;
 pub use select::{Selection, TableError};
 

@@ -4,7 +4,7 @@ use anyhow::Context as _;
 use clap::Parser;
 use pm_formats::Header;
 use pm_formats::trace::{Access, TraceReader, TraceSink};
-use pm_tools::cache::{CacheConfig, LaneSource, Lanes, Measures, ResultMemory, Simulation, Span};
+use pm_tools::cache::{CacheConfig, LaneSource, Lanes, Measures, ResultMemory, Simulation, Span, WindowError, Windows};
 use pm_tools::cli::{self, Progress, Typed, Voice, create_output, named, open_bytes, usage};
 use pm_tools::foreign::{self, Form, Opened};
 use pm_tools::report::Format;
@@ -17,6 +17,8 @@ use std::process::ExitCode;
 mod columns;
 #[path = "pm-cachesim/foreign_args.rs"]
 mod foreign_args;
+#[path = "pm-cachesim/found.rs"]
+mod found;
 #[path = "pm-cachesim/miss_file.rs"]
 mod miss_file;
 #[path = "pm-cachesim/results.rs"]
@@ -25,6 +27,8 @@ mod results;
 mod sizes;
 #[path = "pm-cachesim/traffic.rs"]
 mod traffic;
+#[path = "pm-cachesim/windowed.rs"]
+mod windowed;
 
 use foreign_args::ForeignArgs;
 use results::{Results, Source};
@@ -37,7 +41,8 @@ use sizes::Sizes;
 /// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
 /// json have all. Traces of other simulators are read too, plain or compressed: text formats (din, xdin, lackey, dramsim3,
 /// ramulator2, csv) tell themselves, binary ones (raw32, raw64, dinb, oracleGeneral) have to be named with --input. They
-/// have no queries, and their blocks are those of the 4 KiB pages they touch.
+/// have no queries, and their blocks are those of the 4 KiB pages they touch. Of a trace of windows (pm-queries --only-tiles,
+/// pm-sample --every) each window is simulated from an empty cache, and the numbers are estimates with 95 % intervals.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
@@ -268,6 +273,17 @@ fn simulate_ours<R: Read>(
     results: &mut Results,
 ) -> anyhow::Result<()> {
     let regions = trace.header().regions.clone();
+    if let Some(sample) = windowed::sample(trace.header())? {
+        windowed::refuse(args)?;
+        let mut windows = Windows::new(&regions, configs, measures).map_err(|error| match error {
+            WindowError::Policy(_) => asked_wrongly(error),
+            error => error.into(),
+        })?;
+        replay(args, &mut trace, &mut windows)?;
+        let rows = windows.finish(Some(sample.windows), sample.share);
+        results.add_windows(&Source::ours(trace.header(), trace.end()?), rows);
+        return Ok(());
+    }
     if args.lanes.is_empty() {
         let mut simulation = Simulation::measuring(&regions, configs, measures)?;
         replay(args, &mut trace, &mut simulation)?;

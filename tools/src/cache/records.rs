@@ -40,8 +40,9 @@ impl Tag {
 pub(super) struct Shape(u64);
 
 impl Shape {
+    /// The shape of an access.
     #[inline]
-    fn new(access: &Access) -> Self {
+    pub(super) fn new(access: &Access) -> Self {
         Self(u64::from(Tag::new(access.region, access.kind).0) << 32 | u64::from(access.len))
     }
 

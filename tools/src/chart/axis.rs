@@ -3,7 +3,8 @@
 use crate::size::Bytes;
 
 /// How values are spread along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Scale {
     /// `linear`, unless the values span more than a factor of 20: then `log2` if all are powers of two, else `log10`
     #[default]
@@ -18,8 +19,6 @@ pub enum Scale {
 
 /// From this ratio of greatest to least value on, `auto` is logarithmic.
 const LOGARITHMIC_FROM: f64 = 20.0;
-/// About how many ticks an axis has at most.
-const TICKS: usize = 10;
 
 /// One of the two axes of a plot.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +62,11 @@ impl Axis {
         Ok(Self { label: label.replace('_', " "), scale, words, bytes })
     }
 
+    /// The words along it; none, if it is of numbers.
+    pub(super) fn words(&self) -> &[String] {
+        &self.words
+    }
+
     /// Where a value lies: its place on the axis in the axis's own measure.
     pub(super) fn place(&self, value: f64) -> f64 {
         match self.scale {
@@ -87,8 +91,9 @@ impl Axis {
         }
     }
 
-    /// Places of the ticks between two places.
-    pub(super) fn ticks(&self, low: f64, high: f64) -> Vec<f64> {
+    /// Places of the ticks between two places, about `most` of them at most; of words, all.
+    pub(super) fn ticks(&self, low: f64, high: f64, most: u32) -> Vec<f64> {
+        let most = f64::from(most.max(2));
         if !self.words.is_empty() {
             return (0..self.words.len()).map(|i| i as f64).collect();
         }
@@ -104,9 +109,9 @@ impl Axis {
                 let places = decades.flat_map(|d| [1.0_f64, 2.0, 5.0].map(|m| d as f64 + m.log10()));
                 places.filter(|place| (low..=high).contains(place)).collect()
             }
-            Scale::Log2 | Scale::Log10 => whole(((high - low) / TICKS as f64).ceil().max(1.0)),
+            Scale::Log2 | Scale::Log10 => whole(((high - low) / most).ceil().max(1.0)),
             Scale::Linear | Scale::Auto => {
-                let raw = (high - low) / TICKS as f64 * 1.3;
+                let raw = (high - low) / most * 1.3;
                 let power = 10.0_f64.powf(raw.log10().floor());
                 let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * power >= raw).unwrap_or(10.0) * power;
                 whole(step)
@@ -187,7 +192,7 @@ mod tests {
             let label = if scale == Scale::Log2 { "size" } else { "n" };
             let axis = Axis::fit(label, scale, vec![], values.iter().copied()).expect("an axis");
             let (low, high) = axis.range(values.iter().copied());
-            let ticks = axis.ticks(low, high);
+            let ticks = axis.ticks(low, high, 10);
             assert!(ticks.iter().all(|tick| (low..=high).contains(tick)));
             let labels: Vec<String> = ticks.iter().map(|&tick| axis.tick_label(tick)).collect();
             assert_eq!(labels.join(" "), expected, "{values:?} {scale:?}");
@@ -207,7 +212,7 @@ mod tests {
     fn words_stand_at_whole_numbers() {
         let axis = Axis::fit("ways", Scale::Auto, vec!["1".into(), "full".into()], [0.0, 1.0].into_iter()).unwrap();
         let (low, high) = axis.range([0.0, 1.0].into_iter());
-        let labels: Vec<String> = axis.ticks(low, high).into_iter().map(|place| axis.tick_label(place)).collect();
+        let labels: Vec<String> = axis.ticks(low, high, 10).into_iter().map(|place| axis.tick_label(place)).collect();
         assert_eq!(labels, ["1", "full"]);
     }
 }

@@ -1,9 +1,12 @@
 //! Drawing a plot as SVG.
 
+use super::colours::{GREY, GRID, INK, PAPER, SERIES, dark_style, of_series};
 use super::{Axis, Plot, Point, Series};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::error::Error;
 use std::ops::Range;
 
 /// How a plot looks.
@@ -17,6 +20,8 @@ pub struct Look {
     pub lines: bool,
     /// Is the frontier drawn, as steps?
     pub frontier: bool,
+    /// Is there a legend beside it?
+    pub legend: bool,
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -30,8 +35,8 @@ struct Ruler {
 }
 
 impl Ruler {
-    fn new(axis: &Axis, (low, high): (f64, f64)) -> Self {
-        Self { low, high, ticks: axis.ticks(low, high) }
+    fn new(axis: &Axis, (low, high): (f64, f64), most_ticks: u32) -> Self {
+        Self { low, high, ticks: axis.ticks(low, high, most_ticks) }
     }
 }
 
@@ -52,28 +57,8 @@ impl Ranged for Ruler {
     }
 }
 
-/// Colours that people with any kind of colour vision tell apart: Okabe and Ito, *Color Universal Design*, 2008, without
-/// the yellow, which is faint on white.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-    RGBColor(0x8a, 0x5a, 0x3c),
-];
-const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xff);
-const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
-const GREY: RGBColor = RGBColor(0x80, 0x80, 0x80);
-
-/// On a dark page: what the ink, the paper and the grid become.
-const DARK: &str = "<style>@media (prefers-color-scheme: dark){\
-    [fill=\"#FFFFFF\"]{fill:#16181c}[fill=\"#222222\"]{fill:#e4e4e4}[stroke=\"#222222\"]{stroke:#b8b8b8}\
-    [stroke=\"#DDDDDD\"]{stroke:#3a3d42}[fill=\"#0072B2\"]{fill:#4aa8e0}[stroke=\"#0072B2\"]{stroke:#4aa8e0}\
-    [fill=\"#8A5A3C\"]{fill:#c08a66}[stroke=\"#8A5A3C\"]{stroke:#c08a66}}</style>";
-
+/// Width and height of a key of the legend in pixels.
+const KEY: (u32, u32) = (28, 14);
 /// Height of a line of text in pixels.
 const LETTER: i32 = 13;
 /// Half the extent of a mark in pixels.
@@ -92,13 +77,48 @@ impl Plot {
             self.draw(&root, look).expect("drawing into memory does not fail");
         }
         // Behind the opening tag: a style for dark pages, and the title for those who hear it.
-        let title = format!("<title>{}</title>", escaped(&look.title));
-        let inside = svg.find("<svg").and_then(|at| Some(at + svg[at..].find('>')? + 1)).unwrap_or(0);
-        svg.insert_str(inside, &format!("{title}{DARK}"));
+        let title = format!("<title>{}</title><style>{}</style>", escaped(&look.title), dark_style());
+        svg.insert_str(behind_tag(&svg), &title);
         svg
     }
 
-    fn draw(&self, root: &Area<'_>, look: &Look) -> Result<(), Box<dyn std::error::Error + '_>> {
+    /// Draws the plot as a part of an HTML page, which brings the [`dark_style`] and may stretch it. The title is not
+    /// drawn but told; the legend is left to the page, see [`keys`](Self::keys).
+    #[must_use]
+    pub fn svg_in_page(&self, look: &Look, class: &str) -> String {
+        let bare = Look { title: String::new(), legend: false, ..look.clone() };
+        let svg = self.svg(&bare);
+        let drawn = svg.find("</style>").map_or(&*svg, |at| svg[at + "</style>".len()..].trim_start());
+        let (width, height) = look.size;
+        format!(
+            "<svg class=\"{class}\" role=\"img\" viewBox=\"0 0 {width} {height}\"><title>{}</title>{drawn}",
+            escaped(&look.title)
+        )
+    }
+
+    /// A legend for a page: the name of each series and of each of the reference, with its key as SVG.
+    ///
+    /// # Panics
+    /// Never: the library draws into memory.
+    #[must_use]
+    pub fn keys(&self, lines: bool) -> Vec<(&str, String)> {
+        let key = |number, colour, lines| {
+            let mut svg = String::new();
+            {
+                let root = SVGBackend::with_string(&mut svg, (KEY.0, KEY.1)).into_drawing_area();
+                draw_key(&root, KEY.1 as i32 / 2, number, colour, lines).expect("drawing into memory does not fail");
+            }
+            let (width, height) = KEY;
+            let drawn = &svg[behind_tag(&svg)..];
+            format!("<svg class=\"key\" aria-hidden=\"true\" width=\"{width}\" height=\"{height}\">{drawn}")
+        };
+        let ours = self.series.iter().enumerate();
+        let ours = ours.map(|(number, series)| (&*series.name, key(number, of_series(number), lines)));
+        let reference = self.reference.iter().enumerate();
+        ours.chain(reference.map(|(number, series)| (&*series.name, key(number, GREY, false)))).collect()
+    }
+
+    fn draw(&self, root: &Area<'_>, look: &Look) -> Result<(), Box<dyn Error + '_>> {
         root.fill(&PAPER)?;
         let points = || self.series.iter().chain(&self.reference).flat_map(|series| &series.points);
         let (x, y) = (&self.x, &self.y);
@@ -111,24 +131,37 @@ impl Plot {
         let ys = y.range(points().flat_map(bars));
 
         let names: Vec<&str> = self.series.iter().chain(&self.reference).map(|series| series.name.as_str()).collect();
-        let width = i32::try_from(look.size.0)?;
-        // The library measures text only with the fonts of a system; six pixels a letter is about right.
-        let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-        let legend = i32::try_from(longest)?.saturating_mul(6).saturating_add(44).min(width / 2);
+        let (width, height) = (i32::try_from(look.size.0)?, i32::try_from(look.size.1)?);
+        let longest = names.iter().map(|name| letters(name)).max().unwrap_or(0);
+        let legend = if look.legend { longest.saturating_add(44).min(width / 2) } else { 0 };
         let (left, right) = root.split_horizontally(width - legend);
 
+        // Words that do not fit beside one another stand upright.
+        let longest = x.words().iter().map(|word| letters(word)).max().unwrap_or(0);
+        let room = (width - legend - 64 - 26) / i32::try_from(x.words().len().max(1))?;
+        let upright = longest > room;
+        let labels = if upright { longest.saturating_add(34).min(height / 2) } else { 44 };
+
         let mut builder = ChartBuilder::on(&left);
-        builder.margin(8).margin_right(18).x_label_area_size(44).y_label_area_size(64);
+        builder.margin(8).margin_right(18).x_label_area_size(labels).y_label_area_size(64);
         if !look.title.is_empty() {
             builder.caption(&look.title, ("sans-serif", LETTER + 3).into_font().color(&INK));
         }
-        let mut chart = builder.build_cartesian_2d(Ruler::new(x, xs), Ruler::new(y, ys))?;
+        // A tick for each 60 pixels across and each 40 up, but no more than ten or so.
+        let most = |pixels: i32, each: i32| u32::try_from(pixels / each).unwrap_or(0).min(10);
+        let across = Ruler::new(x, xs, most(width - legend, 60));
+        let mut chart = builder.build_cartesian_2d(across, Ruler::new(y, ys, most(height, 40)))?;
+        let letter = ("sans-serif", LETTER).into_font();
+        let turned = if upright { letter.transform(FontTransform::Rotate270) } else { letter.clone() };
+        let turned = turned.color(&INK);
+        let end = if upright { Pos::new(HPos::Right, VPos::Center) } else { Pos::new(HPos::Center, VPos::Top) };
         chart
             .configure_mesh()
             .bold_line_style(GRID)
             .light_line_style(TRANSPARENT)
             .axis_style(INK)
-            .label_style(("sans-serif", LETTER).into_font().color(&INK))
+            .label_style(letter.color(&INK))
+            .x_label_style(turned.pos(end))
             .axis_desc_style(("sans-serif", LETTER + 1).into_font().color(&INK))
             .x_desc(&x.label)
             .y_desc(&y.label)
@@ -143,21 +176,21 @@ impl Plot {
             self.draw_frontier(&mut chart)?;
         }
         for (number, series) in self.series.iter().enumerate() {
-            self.draw_series(&mut chart, series, COLOURS[number % COLOURS.len()], number, look.lines)?;
+            self.draw_series(&mut chart, series, of_series(number), number, look.lines)?;
         }
 
-        for (row, name) in names.iter().enumerate() {
-            let height = 36 + i32::try_from(row)? * (LETTER + 7);
-            let (number, colour) = match row.checked_sub(self.series.len()) {
-                Some(reference) => (reference, GREY),
-                None => (row, COLOURS[row % COLOURS.len()]),
+        // However many series there are, all are named.
+        let rows = i32::try_from(names.len().max(1))?;
+        let step = ((height - 48) / rows).clamp(1, LETTER + 7);
+        for (row, name) in names.iter().enumerate().filter(|_| look.legend) {
+            let at = 36 + i32::try_from(row)? * step;
+            let (number, colour, lines) = match row.checked_sub(self.series.len()) {
+                Some(reference) => (reference, GREY, false),
+                None => (row, of_series(row), look.lines),
             };
-            if look.lines && row < self.series.len() {
-                right.draw(&PathElement::new(vec![(2, height), (26, height)], colour.stroke_width(2)))?;
-            }
-            mark(&right, (14, height), number, colour)?;
-            let style = ("sans-serif", LETTER).into_font().color(&INK);
-            right.draw(&Text::new((*name).to_owned(), (32, height - LETTER / 2), style))?;
+            draw_key(&right, at, number, colour, lines)?;
+            let style = ("sans-serif", LETTER.min(step)).into_font().color(&INK);
+            right.draw(&Text::new((*name).to_owned(), (32, at - LETTER.min(step) / 2), style))?;
         }
         root.present()?;
         Ok(())
@@ -170,10 +203,16 @@ impl Plot {
         colour: RGBColor,
         number: usize,
         lines: bool,
-    ) -> Result<(), Box<dyn std::error::Error + '_>> {
+    ) -> Result<(), Box<dyn Error + '_>> {
         let place = |point: &Point| (self.x.place(point.x), self.y.place(point.y));
         if lines {
-            chart.draw_series(LineSeries::new(series.points.iter().map(place), colour.stroke_width(2))).map_err(own)?;
+            let points: Vec<_> = series.points.iter().map(place).collect();
+            if is_dashed(number) {
+                let dashes = DashedLineSeries::new(points, DASH.0, DASH.1, colour.stroke_width(2));
+                chart.draw_series(dashes).map_err(own)?;
+            } else {
+                chart.draw_series(LineSeries::new(points, colour.stroke_width(2))).map_err(own)?;
+            }
         }
         let area = chart.plotting_area();
         let bottom = area.get_pixel_range().1.end;
@@ -206,7 +245,7 @@ impl Plot {
     }
 
     /// The frontier as steps: from each point on, its height is what can be had.
-    fn draw_frontier(&self, chart: &mut Chart<'_, '_>) -> Result<(), Box<dyn std::error::Error + '_>> {
+    fn draw_frontier(&self, chart: &mut Chart<'_, '_>) -> Result<(), Box<dyn Error + '_>> {
         let mut steps: Vec<(f64, f64)> = vec![];
         for point in self.frontier().points {
             let at = (self.x.place(point.x), self.y.place(point.y));
@@ -220,6 +259,36 @@ impl Plot {
     }
 }
 
+/// Draws the key of series number `number` at this height of the legend.
+fn draw_key(area: &Area<'_>, at: i32, number: usize, colour: RGBColor, lines: bool) -> Result<(), Box<dyn Error>> {
+    if lines {
+        let style = colour.stroke_width(2);
+        let pieces: &[(i32, i32)] = if is_dashed(number) { &[(2, 8), (20, 26)] } else { &[(2, 26)] };
+        for &(from, to) in pieces {
+            area.draw(&PathElement::new(vec![(from, at), (to, at)], style)).map_err(own)?;
+        }
+    }
+    mark(area, (14, at), number, colour)
+}
+
+/// The lines of series with a colour that an earlier one has are dashed.
+const fn is_dashed(number: usize) -> bool {
+    number / SERIES.len() % 2 == 1
+}
+
+/// Length of a dash and of the gap behind it in pixels.
+const DASH: (i32, i32) = (6, 4);
+
+/// About how many pixels wide a text is. The library would measure it only with the fonts of a system.
+fn letters(text: &str) -> i32 {
+    i32::try_from(text.chars().count()).unwrap_or(i32::MAX).saturating_mul(13) / 2
+}
+
+/// Behind the opening tag of a picture.
+fn behind_tag(svg: &str) -> usize {
+    svg.find("<svg").and_then(|at| Some(at + svg[at..].find('>')? + 1)).unwrap_or(0)
+}
+
 /// More points than this in a line are not marked.
 const MOST_MARKED: usize = 60;
 
@@ -230,12 +299,7 @@ fn interval(point: &Point) -> (f64, f64) {
 }
 
 /// Draws the mark of series number `number`: another shape for each, so that no one depends on colours alone.
-fn mark(
-    area: &Area<'_>,
-    (x, y): (i32, i32),
-    number: usize,
-    colour: RGBColor,
-) -> Result<(), Box<dyn std::error::Error>> {
+fn mark(area: &Area<'_>, (x, y): (i32, i32), number: usize, colour: RGBColor) -> Result<(), Box<dyn Error>> {
     let fill = colour.filled();
     let polygon = |corners: &[(i32, i32)]| corners.iter().map(|&(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>();
     match number % 6 {
@@ -252,7 +316,7 @@ fn mark(
 }
 
 /// An error of the library's as one that lives by itself.
-fn own(error: impl std::fmt::Display) -> Box<dyn std::error::Error> {
+fn own(error: impl std::fmt::Display) -> Box<dyn Error> {
     error.to_string().into()
 }
 
@@ -279,7 +343,7 @@ mod tests {
     }
 
     fn look() -> Look {
-        Look { title: "a < b".into(), size: (800, 500), lines: true, frontier: true }
+        Look { title: "a < b".into(), size: (800, 500), lines: true, frontier: true, legend: true }
     }
 
     /// Centres of the circles of the first series, in the order drawn, the legend's left out.
@@ -319,11 +383,38 @@ mod tests {
     }
 
     #[test]
-    fn every_colour_of_the_style_is_one_that_is_drawn() {
-        let svg = plot("order,size,fetches,width\na,1,1,\nb,2,5,\n").svg(&look());
-        for colour in [PAPER, INK, GRID, COLOURS[0]] {
-            let name = format!("#{:02X}{:02X}{:02X}", colour.0, colour.1, colour.2);
-            assert!(DARK.contains(&name) && svg.replace(DARK, "").contains(&name), "{name}");
+    fn a_part_of_a_page_has_no_style_of_its_own_and_a_key_for_each_series() {
+        let plot = plot("order,size,fetches,width\na,1,1,\nb,2,5,\n");
+        let svg = plot.svg_in_page(&look(), "wide");
+        assert!(svg.starts_with("<svg class=\"wide\" role=\"img\" viewBox=\"0 0 800 500\"><title>a &lt; b</title><"));
+        assert!(!svg.contains("<style") && svg.matches("<svg").count() == 1 && svg.trim_end().ends_with("</svg>"));
+        // The marks are the points', not a legend's.
+        assert_eq!(svg.matches("<circle").count(), 1);
+        let keys = plot.keys(true);
+        assert_eq!(keys.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["a", "b"]);
+        assert!(keys[0].1.contains("<circle") && keys[1].1.contains("<rect"), "{keys:?}");
+    }
+
+    #[test]
+    fn every_series_is_named_however_many_there_are() {
+        let rows: String = (0..60).map(|i| format!("series{i},1,{},\n", i + 1)).collect();
+        let svg = plot(&format!("order,size,fetches,width\n{rows}")).svg(&look());
+        for i in 0..60 {
+            assert!(svg.contains(&format!("\nseries{i}\n")), "series{i}");
         }
+        let lowest = svg
+            .split("<text ")
+            .filter(|text| text.contains("\nseries59\n"))
+            .find_map(|text| text.split(" y=\"").nth(1)?.split('"').next()?.parse::<i32>().ok());
+        assert!(lowest.expect("the last series is named") < 500);
+    }
+
+    #[test]
+    fn long_words_stand_upright() {
+        let words = |word: &str| (0..9).map(|i| format!("a,{word}{i},1,\n")).collect::<String>();
+        let svg = |word: &str| plot(&format!("order,size,fetches,width\n{}", words(word))).svg(&look());
+        let turned = |svg: &str| svg.matches("rotate(270").count();
+        // The label of the axis up always is.
+        assert_eq!(turned(&svg("a rather long word ")), turned(&svg("w")) + 9);
     }
 }

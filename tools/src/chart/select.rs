@@ -16,7 +16,7 @@ pub struct Selection {
     pub by: Vec<String>,
     /// The column of half widths of intervals around y.
     pub error: Option<String>,
-    /// Only rows that have these values in these columns.
+    /// Only rows that have these values in these columns; of several values of a column, any.
     pub only: Vec<(String, String)>,
     /// Scale of x.
     pub x_scale: Scale,
@@ -108,7 +108,7 @@ impl Plot {
         let mut rows = vec![];
         let mut names = vec![];
         for (table, (name, text)) in tables.into_iter().chain(references).enumerate() {
-            read_table(selection, table, &name, text, &mut rows)?;
+            read_table(selection, (table, table >= ours), &name, text, &mut rows)?;
             names.push(name);
         }
         if rows.iter().all(|row| row.table >= ours) {
@@ -167,7 +167,7 @@ impl Plot {
 
 fn read_table(
     selection: &Selection,
-    table: usize,
+    (table, is_reference): (usize, bool),
     name: &str,
     text: impl Read,
     rows: &mut Vec<Row>,
@@ -186,15 +186,20 @@ fn read_table(
         })
     };
     let (x, y) = (column(&selection.x)?, column(&selection.y)?);
-    let error = selection.error.as_deref().map(column).transpose()?;
-    let by = selection.by.iter().map(|wanted| column(wanted)).collect::<Result<Vec<_>, _>>()?;
-    let only = selection.only.iter().map(|(wanted, value)| Ok((column(wanted)?, value)));
+    // What is compared with need not have all columns that ours have.
+    let known = |wanted: &str| !is_reference || headers.iter().any(|header| header == wanted);
+    let error = selection.error.as_deref().filter(|wanted| known(wanted)).map(column).transpose()?;
+    let by = selection.by.iter().filter(|wanted| known(wanted)).map(|wanted| column(wanted));
+    let by = by.collect::<Result<Vec<_>, _>>()?;
+    let only = selection.only.iter().filter(|(wanted, _)| known(wanted));
+    let only = only.map(|(wanted, value)| Ok((column(wanted)?, value)));
     let only = only.collect::<Result<Vec<_>, TableError>>()?;
 
     for record in reader.records() {
         let record = record.map_err(csv_error)?;
         let field = |column: usize| record.get(column).unwrap_or_default();
-        if field(x).is_empty() || field(y).is_empty() || only.iter().any(|&(column, value)| field(column) != value) {
+        let fits = |wanted: usize| only.iter().any(|&(column, value)| column == wanted && field(column) == value);
+        if field(x).is_empty() || field(y).is_empty() || !only.iter().all(|&(column, _)| fits(column)) {
             continue;
         }
         let line = record.position().map_or(0, csv::Position::line);
@@ -208,7 +213,7 @@ fn read_table(
         };
         let series = by.iter().map(|&column| field(column)).filter(|part| !part.is_empty()).collect::<Vec<_>>();
         rows.push(Row {
-            series: if by.is_empty() { stem(name) } else { series.join(", ") },
+            series: if series.is_empty() { stem(name) } else { series.join(", ") },
             x: field(x).to_owned(),
             y: number(y)?,
             error: error.filter(|&column| !field(column).is_empty()).map(number).transpose()?,
@@ -252,6 +257,23 @@ hilbert,\"8K,full,128,lru\",8192,,
         assert_eq!(names, [("scanline", 2), ("hilbert", 1)]);
         assert_eq!(plot.series[0].points[1], Point { x: 8192.0, y: 80.0, error: Some(1.0) });
         assert_eq!(plot.series[1].points[0].error, None);
+    }
+
+    #[test]
+    fn of_several_values_of_a_column_any_does() {
+        let only = [("size", "8192"), ("size", "4096"), ("order", "scanline")];
+        let only = only.map(|(column, value)| (column.to_owned(), value.to_owned())).to_vec();
+        let plot = read(&Selection { only, ..selection() }, TABLE).unwrap();
+        let points = |series: &Series| (series.name.clone(), series.points.len());
+        assert_eq!(plot.series.iter().map(points).collect::<Vec<_>>(), [("scanline".to_owned(), 2)]);
+    }
+
+    #[test]
+    fn references_need_only_the_columns_of_the_axes() {
+        let selection = Selection { only: vec![("order".into(), "hilbert".into())], ..selection() };
+        let paper = vec![("p.csv".to_owned(), "size,fetches\n4096,58\n".as_bytes())];
+        let plot = Plot::read(&selection, vec![("t.csv".to_owned(), TABLE.as_bytes())], paper).unwrap();
+        assert_eq!((plot.reference[0].name.as_str(), plot.reference[0].points.len()), ("p", 1));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Columns of the results: what each is called, whether the table shows it, and its value.
 
+use super::found::Found;
 use pm_tools::cache::{CacheConfig, Curve, Distribution, Estimate, Row, SampledCurve, TraceCounts, Ways, WorkingSets};
 use pm_tools::report::{Column, Format, Table, Value};
 use std::collections::BTreeSet;
@@ -12,6 +13,8 @@ const DIGITS: u8 = 5;
 struct Of<T> {
     column: Column,
     in_table: bool,
+    /// What the table calls it, if not by its name.
+    head: Option<&'static str>,
     value: Box<dyn Fn(&T) -> Value>,
 }
 
@@ -21,12 +24,12 @@ struct Columns<T>(Vec<Of<T>>);
 impl<T> Columns<T> {
     fn text(mut self, name: &str, in_table: bool, value: impl Fn(&T) -> String + 'static) -> Self {
         let value = Box::new(move |of: &T| Value::Text(value(of)));
-        self.0.push(Of { column: Column::text(name), in_table, value });
+        self.0.push(Of { column: Column::text(name), in_table, head: None, value });
         self
     }
 
     fn number(mut self, name: &str, in_table: bool, value: impl Fn(&T) -> Value + 'static) -> Self {
-        self.0.push(Of { column: Column::number(name), in_table, value: Box::new(value) });
+        self.0.push(Of { column: Column::number(name), in_table, head: None, value: Box::new(value) });
         self
     }
 
@@ -43,10 +46,30 @@ impl<T> Columns<T> {
         self.number(name, in_table, move |of| Value::Float(value(of), DIGITS))
     }
 
+    /// The table has the last column too.
+    fn in_table(mut self) -> Self {
+        if let Some(last) = self.0.last_mut() {
+            last.in_table = true;
+        }
+        self
+    }
+
+    /// The last column has another name in the table.
+    fn headed(mut self, head: &'static str) -> Self {
+        if let Some(last) = self.0.last_mut() {
+            last.head = Some(head);
+        }
+        self
+    }
+
     /// The table of these results, with the columns that the format shows.
     fn table(self, format: Format, results: &[T]) -> Table {
         let shown: Vec<Of<T>> = self.0.into_iter().filter(|of| of.in_table || format != Format::Table).collect();
-        let mut table = Table::new(shown.iter().map(|of| of.column.clone()).collect());
+        let head = |of: &Of<T>| match of.head {
+            Some(name) if format == Format::Table => Column { name: name.to_owned(), ..of.column.clone() },
+            _ => of.column.clone(),
+        };
+        let mut table = Table::new(shown.iter().map(head).collect());
         for result in results {
             table.push(shown.iter().map(|of| (of.value)(result)).collect());
         }
@@ -58,9 +81,11 @@ impl<T> Columns<T> {
 pub(crate) struct CacheResult {
     /// The order of the queries.
     pub(crate) order: String,
+    /// Which part of the stream the trace is of, in words; empty if it is of all.
+    pub(crate) sample: String,
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
-    pub(crate) row: Row,
+    pub(crate) found: Found,
     /// Names of the regions of the trace.
     pub(crate) regions: Rc<Vec<String>>,
     /// Bytes of queries spilled to memory and read back by the stages before.
@@ -72,19 +97,64 @@ pub(crate) struct CacheResult {
 }
 
 impl CacheResult {
-    /// Map, queries and results together.
-    fn total_bytes(&self) -> Option<u64> {
-        Some(self.row.traffic_bytes().saturating_add(self.query_bytes).saturating_add(self.result_bytes?))
+    /// The exact counts, if there are such of the whole trace.
+    fn row(&self) -> Option<&Row> {
+        match &self.found {
+            Found::Exact(row) => Some(row),
+            Found::Windows(_) => None,
+        }
     }
 
-    /// Fetches of all regions whose name in a column is this.
-    fn region_fetches(&self, name: &str) -> u64 {
-        let named = self.regions.iter().zip(&self.row.region_fetches).filter(|(region, _)| column_name(region) == name);
-        named.map(|(_, fetches)| fetches).sum()
+    /// Map, queries and results together.
+    fn total_bytes(&self) -> Option<u64> {
+        Some(self.row()?.traffic_bytes().saturating_add(self.query_bytes).saturating_add(self.result_bytes?))
+    }
+
+    /// Fetches of a row for all regions whose name in a column is this.
+    fn region_fetches(&self, name: &str) -> impl Fn(&Row) -> u64 {
+        let named: Vec<bool> = self.regions.iter().map(|region| column_name(region) == name).collect();
+        move |row| named.iter().zip(&row.region_fetches).map(|(named, fetches)| u64::from(*named) * fetches).sum()
     }
 
     fn sets(&self, of: SetsOf) -> Option<&Distribution> {
-        self.row.more.working_sets.as_deref().map(of)
+        self.row()?.more.working_sets.as_deref().map(of)
+    }
+
+    fn config(&self) -> &CacheConfig {
+        self.found.config()
+    }
+
+    /// Half the width of an interval; of a whole stream there is nothing to estimate, and a sample that is not one of
+    /// windows does not tell.
+    fn half_width(&self, estimated: f64) -> f64 {
+        match &self.found {
+            Found::Windows(_) => estimated,
+            Found::Exact(_) if self.sample.is_empty() => 0.0,
+            Found::Exact(_) => f64::NAN,
+        }
+    }
+}
+
+/// Columns of caches.
+impl Columns<CacheResult> {
+    /// A count of the stream, or an estimate of it.
+    fn total(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
+        self.number(name, in_table, move |of| of.found.total(count).0)
+    }
+
+    /// The same with half the width of its interval behind it.
+    fn total_with_error(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
+        let error = move |of: &CacheResult| of.half_width(of.found.total(count).1);
+        self.total(name, in_table, count).ratio(&format!("{name}_error"), false, error)
+    }
+
+    /// A count for each query, with half the width of its interval behind it.
+    fn per_query(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
+        self.ratio(name, in_table, move |of| of.found.per_query(count).0).ratio(
+            &format!("{name}_error"),
+            false,
+            move |of| of.half_width(of.found.per_query(count).1),
+        )
     }
 }
 
@@ -105,55 +175,84 @@ fn column_name(region: &str) -> String {
 pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
     // Where all traces are read one search after the other there is nothing to say.
     let lanes = results.iter().any(|of| of.lanes > 1);
+    let sampled = results.iter().any(|of| !of.sample.is_empty());
+    let windowed = results.iter().any(|of| of.row().is_none());
     let mut columns = Columns(vec![])
         .text("order", true, |of: &CacheResult| of.order.clone())
-        .text("cache", true, |of| of.row.config.to_string())
+        .text("sample", sampled, |of| of.sample.clone())
+        .text("cache", true, |of| of.config().to_string())
         .count("lanes", lanes, |of| of.lanes.into())
-        .count("cache_bytes", false, |of| of.row.config.size_bytes())
-        .text("ways", false, |of| of.row.config.ways().to_string())
-        .count("line_bytes", false, |of| of.row.config.line_bytes().into())
-        .text("policy", false, |of| of.row.config.policy().to_string())
-        .count("queries", true, |of| of.row.queries)
-        .count("reads", false, |of| of.row.records.reads)
-        .count("raw_bytes", false, |of| of.row.raw_bytes())
-        .count("accesses", false, |of| of.row.accesses)
-        .count("fetches", true, |of| of.row.fetches)
-        .count("bytes_fetched", true, |of| of.row.bytes_fetched)
-        .count("bytes_written_back", false, |of| of.row.bytes_written_back)
-        .count("compulsory", false, |of| of.row.compulsory)
-        .count("blocks", false, |of| of.row.blocks)
-        .ratio("reads_per_query", true, |of| of.row.reads_per_query())
-        .ratio("fetches_per_query", true, |of| of.row.fetches_per_query())
-        .ratio("fetches_per_block", true, |of| of.row.fetches_per_block())
-        .ratio("bytes_per_query", false, |of| of.row.bytes_per_query())
-        .number("capacity", false, |of| perhaps(of.row.capacity()))
-        .number("conflict", false, |of| of.row.conflict().map_or(perhaps(None), Value::Signed))
-        .number("page_switches", false, |of| perhaps(of.row.more.page_switches))
-        .ratio("page_switches_per_fetch", false, |of| of.row.page_switches_per_fetch().unwrap_or(f64::NAN));
+        .count("cache_bytes", false, |of| of.config().size_bytes())
+        .text("ways", false, |of| of.config().ways().to_string())
+        .count("line_bytes", false, |of| of.config().line_bytes().into())
+        .text("policy", false, |of| of.config().policy().to_string())
+        .total("queries", !windowed, |row| row.queries)
+        .total("reads", false, |row| row.records.reads)
+        .total("raw_bytes", false, Row::raw_bytes)
+        .total("accesses", false, |row| row.accesses)
+        .total_with_error("fetches", !windowed, |row| row.fetches)
+        .total_with_error("bytes_fetched", true, |row| row.bytes_fetched)
+        .total("bytes_written_back", false, |row| row.bytes_written_back)
+        .count_perhaps("compulsory", |of| Some(of.row()?.compulsory))
+        .count("blocks", false, |of| of.found.blocks())
+        .per_query("reads_per_query", true, |row| row.records.reads)
+        .per_query("accesses_per_query", false, |row| row.accesses)
+        .per_query("fetches_per_query", true, |row| row.fetches);
+    if windowed {
+        columns = columns.in_table().headed("±");
+    }
+    columns = columns
+        .ratio("fetches_per_block", true, |of| of.found.fetches_per_block().0)
+        .ratio("fetches_per_block_error", false, |of| of.half_width(of.found.fetches_per_block().1))
+        .per_query("bytes_per_query", false, Row::traffic_bytes)
+        .number("capacity", false, |of| perhaps(of.row().and_then(Row::capacity)))
+        .number("conflict", false, |of| of.row().and_then(Row::conflict).map_or(perhaps(None), Value::Signed))
+        .number("page_switches", false, |of| of.found.page_switches())
+        .ratio("page_switches_per_fetch", false, |of| of.found.page_switches_per_fetch());
     let of_searches: SetsOf = |sets| &sets.per_search;
     let of_batches: SetsOf = |sets| &sets.per_batch;
     for (name, of) in [("search", of_searches), ("batch", of_batches)] {
         let percentile = |percent| move |result: &CacheResult| result.sets(of)?.percentile(percent).map(u64::from);
+        let mean = move |result: &CacheResult| match name {
+            "search" => result.found.lines_per_search(),
+            _ => result.sets(of).map_or(f64::NAN, Distribution::mean),
+        };
         columns = columns
             .count_perhaps(&format!("{name}es"), move |result| Some(result.sets(of)?.number()))
-            .ratio(&format!("lines_per_{name}_mean"), false, move |r| r.sets(of).map_or(f64::NAN, Distribution::mean))
+            .ratio(&format!("lines_per_{name}_mean"), false, mean)
             .count_perhaps(&format!("lines_per_{name}_p50"), percentile(50))
             .count_perhaps(&format!("lines_per_{name}_p90"), percentile(90))
             .count_perhaps(&format!("lines_per_{name}_max"), move |result| result.sets(of)?.max().map(u64::from));
     }
     columns = columns
         .count_perhaps("batch_floor", move |of| Some(of.sets(of_batches)?.sum()))
-        .count("query_bytes", false, |of| of.query_bytes)
+        // What was spilled of a sample is not what would be of all.
+        .count_perhaps("query_bytes", |of| of.row().map(|_| of.query_bytes))
         .number("result_bytes", false, |of| perhaps(of.result_bytes))
         .number("total_bytes", false, |of| perhaps(of.total_bytes()))
-        .count("order_bytes_on_chip", false, |of| of.order_bytes);
+        .count("order_bytes_on_chip", false, |of| of.order_bytes)
+        .count("windows", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows()))
+        .count("windows_inexact", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows_inexact()))
+        .count("queries_measured", false, |of| of.found.queries_measured())
+        .count("queries_simulated", windowed, |of| of.found.queries_simulated())
+        .ratio("sample_share", false, |of| match of.found.windows() {
+            Some(windows) => windows.share.unwrap_or(f64::NAN),
+            None if of.sample.is_empty() => 1.0,
+            None => f64::NAN,
+        })
+        .ratio("degrees_of_freedom", false, |of| of.found.degrees_of_freedom());
     let regions: BTreeSet<String> =
         results.iter().flat_map(|of| of.regions.iter().map(|name| column_name(name))).collect();
     for region in regions {
-        let name = format!("fetches_{region}");
+        let names = [format!("fetches_{region}"), format!("fetches_{region}_error")];
         // A region called `per_query` would be another column.
-        if columns.0.iter().all(|of| of.column.name != name) {
-            columns = columns.count(&name, false, move |of| of.region_fetches(&region));
+        if columns.0.iter().all(|of| !names.contains(&of.column.name)) {
+            let again = region.clone();
+            columns = columns.number(&names[0], false, move |of| of.found.total(of.region_fetches(&region)).0).ratio(
+                &names[1],
+                false,
+                move |of| of.half_width(of.found.total(of.region_fetches(&again)).1),
+            );
         }
     }
     columns.table(format, results)

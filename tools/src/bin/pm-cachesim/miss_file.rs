@@ -2,6 +2,7 @@
 
 use super::Args;
 use super::results::{Results, Source};
+use super::windowed;
 use anyhow::Context as _;
 use pm_formats::trace::TraceReader;
 use pm_formats::{Number, StageReport};
@@ -24,6 +25,9 @@ pub(crate) fn write(
     }
     let name = named(path);
     let mut trace = TraceReader::from_blocks(cli::open_input(path)?).context(name.clone())?;
+    if windowed::sample(trace.header()).context(name.clone())?.is_some() {
+        windowed::refuse(args).context(name.clone())?;
+    }
     let measures = super::for_trace(&measures, trace.header());
     let mut header = trace.header().clone();
     let through = header.meaning("misses of").map_or(cache.to_string(), |first| format!("{first}, {cache}"));

@@ -1,10 +1,11 @@
 //! What was found, trace by trace.
 
 use super::columns::{CacheResult, CurvePoint};
+use super::found::Found;
 use super::{Args, asked_wrongly, sizes, traffic};
 use pm_formats::trace::Region;
 use pm_formats::{End, Header};
-use pm_tools::cache::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways};
+use pm_tools::cache::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways, WindowedRow};
 use pm_tools::cli::usage;
 use pm_tools::report::Format;
 use pm_tools::size::Bytes;
@@ -21,6 +22,8 @@ pub(crate) struct Results {
 pub(crate) struct Source {
     /// The order of the queries, or the format of a foreign trace.
     order: String,
+    /// Which part of the stream it is, in words; empty if it is all.
+    sample: String,
     /// Names of the regions.
     regions: Rc<Vec<String>>,
     query_bytes: u64,
@@ -31,28 +34,47 @@ impl Source {
     /// One of our traces, read to its end.
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
-        Self { order: order_of(header), query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
+        let sample = header.meaning("sample").unwrap_or_default().to_owned();
+        Self {
+            order: order_of(header),
+            sample,
+            query_bytes,
+            order_bytes,
+            ..Self::foreign(String::new(), &header.regions)
+        }
     }
 
     /// A trace in another format.
     pub(crate) fn foreign(format: String, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        Self { order: format, regions, query_bytes: 0, order_bytes: 0 }
+        Self { order: format, sample: String::new(), regions, query_bytes: 0, order_bytes: 0 }
+    }
+
+    /// What was found of a cache with so many searches in flight.
+    fn result(&self, lanes: u16, found: Found, result_bytes: Option<u64>) -> CacheResult {
+        CacheResult {
+            order: self.order.clone(),
+            sample: self.sample.clone(),
+            lanes,
+            found,
+            regions: Rc::clone(&self.regions),
+            query_bytes: self.query_bytes,
+            order_bytes: self.order_bytes,
+            result_bytes,
+        }
     }
 }
 
 impl Results {
+    /// Adds what the windows of a trace tell.
+    pub(crate) fn add_windows(&mut self, source: &Source, rows: Vec<WindowedRow>) {
+        self.rows.extend(rows.into_iter().map(|row| source.result(1, Found::Windows(row), None)));
+    }
+
     /// Adds what was found of a trace with so many searches in flight.
     pub(crate) fn add(&mut self, args: &Args, source: &Source, lanes: u16, findings: Findings) -> anyhow::Result<()> {
-        self.rows.extend(findings.rows.into_iter().map(|row| CacheResult {
-            order: source.order.clone(),
-            lanes,
-            row,
-            regions: Rc::clone(&source.regions),
-            query_bytes: source.query_bytes,
-            order_bytes: source.order_bytes,
-            result_bytes: findings.result_bytes,
-        }));
+        let result = |row| source.result(lanes, Found::Exact(row), findings.result_bytes);
+        self.rows.extend(findings.rows.into_iter().map(result));
         let mut exact = findings.curves.into_iter().map(Rc::new);
         let mut sampled = findings.sampled.into_iter().map(Rc::new);
         loop {

@@ -1,0 +1,24 @@
+# make paper: every table and figure of the paper again, sampled, and what the paper leaves out.
+
+PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures
+
+# What pictures are compared with: many photons, many neighbours, many rays, another seed.
+out/references/cornell.exr out/references/cornell.base.exr &: | programs
+	@mkdir -p $(@D)
+	$(LAUNCH) bash -euo pipefail -c 'pm-photons -q -n 2000000 --seed 7 -t $(THREADS) -o out/references/cornell.pmp && \
+	    pm-queries -q --size 64x64 --seed 7 -t $(THREADS) --gathers 400 --light-samples 64 --base out/references/cornell.base.exr | \
+	    pm-gather -q out/references/cornell.pmp - -k 200 -t $(THREADS) --no-trace --base out/references/cornell.base.exr --image out/references/cornell.exr'
+	@test -s out/references/cornell.exr
+
+# The diffuse box, and the same with every surface as glossy as not.
+out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scenes/cornell-diffuse.obj scenes/cornell-diffuse.mtl
+	@mkdir -p $(@D)
+	@awk -v glossy=$(filter glossy,$*) '{ print } glossy && /^Kd .*[1-9]/ { print "Ks .3 .3 .3\nNs 20" }' scenes/cornell-diffuse.mtl > out/scenes/box-$*.mtl
+	@cp scenes/cornell-diffuse.camera.toml out/scenes/box-$*.camera.toml
+	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
+
+# What the paper says, and what we find.
+out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=1 -f scripts/claims.awk scripts/claims.csv)
+	@mkdir -p $(@D)
+	@awk -f scripts/claims.awk $< > $@.part
+	@mv $@.part $@

@@ -1,0 +1,175 @@
+//! Does a table of experiments become its rows: each once, whole or not at all, and nothing believed that is not there?
+
+use crate::support::{Folder, PROGRAMS};
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const TABLE: &str = "\
+# Two orders, two k.
+point,order,k,photons,queries,gather
+{order}.{k},scanline tiled-hilbert,10 20,-n 500,--size 16x16 --gathers 4,-k {k}
+";
+
+/// A folder in which `make` finds what it finds in the repository, and the programs that were just built.
+fn workshop() -> Folder {
+    let folder = Folder::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the repository");
+    for name in ["Makefile", "scripts", "scenes"] {
+        symlink(root.join(name), folder.path(name)).expect("a link");
+    }
+    fs::create_dir_all(folder.path("target/release")).expect("a folder");
+    for (name, file) in PROGRAMS {
+        symlink(file, folder.path("target/release").join(name)).expect("a link");
+    }
+    folder.write("my.csv", TABLE);
+    folder
+}
+
+/// `make` with these words; it builds nothing.
+fn make(folder: &Folder, words: &str) -> Output {
+    let words = words.split_whitespace();
+    let mut command = Command::new("make");
+    command.args(["CARGO=true", "THREADS=1"]).args(words).current_dir(folder.path("."));
+    // A make that runs these tests must not hand its own options on.
+    command.env_remove("MAKEFLAGS").env_remove("MFLAGS").output().expect("make runs")
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// Whether a run of make simulated this point.
+fn made(output: &Output, point: &str) -> bool {
+    said(output).contains(&format!("> out/my/{point}.csv.part"))
+}
+
+#[test]
+fn a_table_becomes_a_row_for_each_point_and_a_rerun_makes_what_is_missing() {
+    let folder = workshop();
+    let first = make(&folder, "-j2 sweep SWEEP=my.csv");
+    assert!(first.status.success(), "{}", said(&first));
+    assert!(said(&first).contains("out/my.csv: 4 rows"), "{}", said(&first));
+    let joined = String::from_utf8(folder.read("out/my.csv")).unwrap();
+    let lines: Vec<&str> = joined.lines().collect();
+    assert!(lines[0].starts_with("point,order,k,cache,"), "{}", lines[0]);
+    assert_eq!(lines[0].split(',').filter(|&name| name == "order").count(), 1, "the label stands for the column");
+    let starts = ["scanline.10,scanline,10,", "scanline.20,scanline,20,", "tiled-hilbert.10,tiled-hilbert,10,"];
+    assert!(lines[1..].iter().zip(starts).all(|(line, start)| line.starts_with(start)), "{joined}");
+    // The same searches in another order: as many reads, in the same column of both.
+    let reads = |line: &str| {
+        let quoteless = line.replace("\"128K,full,128,lru\"", "cache");
+        let column = lines[0].split(',').position(|name| name == "reads").unwrap();
+        quoteless.split(',').nth(column).unwrap().to_owned()
+    };
+    assert_eq!(reads(lines[1]), reads(lines[3]));
+    assert_ne!(reads(lines[1]), reads(lines[2]));
+
+    let again = make(&folder, "sweep SWEEP=my.csv");
+    assert!(again.status.success());
+    assert!(!said(&again).contains("pm-gather"), "{}", said(&again));
+
+    fs::remove_file(folder.path("out/my/scanline.20.csv")).unwrap();
+    let third = make(&folder, "sweep SWEEP=my.csv");
+    assert!(third.status.success());
+    assert!(made(&third, "scanline.20") && !made(&third, "scanline.10"), "{}", said(&third));
+    assert_eq!(joined.as_bytes(), folder.read("out/my.csv"));
+}
+
+#[test]
+fn a_launcher_that_does_nothing_and_says_0_is_not_believed() {
+    let folder = workshop();
+    for goal in ["sweep SWEEP=my.csv", "run"] {
+        let outcome = make(&folder, &format!("LAUNCH=true {goal}"));
+        assert!(!outcome.status.success(), "{goal}: {}", said(&outcome));
+    }
+    // Not even when the streams are there.
+    assert!(make(&folder, "sweep SWEEP=my.csv").status.success());
+    fs::remove_file(folder.path("out/my/scanline.20.csv")).unwrap();
+    let outcome = make(&folder, "LAUNCH=true sweep SWEEP=my.csv");
+    assert!(!outcome.status.success());
+    assert!(said(&outcome).contains("out/my/scanline.20.csv: no row came back"), "{}", said(&outcome));
+    assert!(!folder.path("out/my/scanline.20.csv").exists());
+}
+
+#[test]
+fn a_point_that_fails_leaves_no_row_and_the_others_theirs() {
+    let folder = workshop();
+    folder.write("my.csv", TABLE.replace("10 20", "10 none"));
+    let outcome = make(&folder, "-k sweep SWEEP=my.csv");
+    assert!(!outcome.status.success());
+    let there = |name: &str| folder.path("out/my").join(name).exists();
+    assert!(there("scanline.10.csv") && there("tiled-hilbert.10.csv"), "{}", said(&outcome));
+    assert!(!there("scanline.none.csv") && !folder.path("out/my.csv").exists());
+}
+
+#[test]
+fn mistakes_in_a_table_are_named_with_their_line() {
+    let folder = workshop();
+    let fails = |table: &str, why: &str| {
+        folder.write("my.csv", table);
+        let outcome = make(&folder, "sweep SWEEP=my.csv");
+        assert!(!outcome.status.success(), "{table}");
+        assert!(said(&outcome).contains(why), "{why}: {}", said(&outcome));
+    };
+    fails("order,photons\nzigzag,-n 500\n", "my.csv:2: `zigzag` is no order");
+    fails("order,photons\nscanline,-n 500,x\n", "my.csv:2: has 3 cells");
+    fails("point,order\na,scanline tiled\n", "my.csv:2: the point a stands twice");
+    fails("order,queries\nscanline,--size $(NO_SUCH)\n", "my.csv:2: $(NO_SUCH) has no value");
+    fails("order,queries\n", "there is no point in");
+}
+
+/// With results that are all 1, every sentence of the paper still gets a verdict.
+#[test]
+fn every_claim_of_the_paper_has_a_verdict() {
+    let folder = workshop();
+    let awk = |list: &str| {
+        let mut command = Command::new("awk");
+        command.args(["-v", list, "-f", "scripts/claims.awk", "scripts/claims.csv"]).current_dir(folder.path("."));
+        let output = command.output().expect("awk runs");
+        (output.status.success(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (listed, files, _) = awk("list=1");
+    assert!(listed && files.lines().count() > 50, "{files}");
+    let columns = ["bytes_fetched", "bytes_per_query", "fetches_per_query", "fetches_per_block", "reads_per_query"];
+    let columns = [&columns[..], &["queries", "blocks", "orphans"]].concat();
+    let (mut names, mut ones) = ("cache_bytes,ways".to_owned(), String::new());
+    for column in columns {
+        names = format!("{names},{column}");
+        ones += ",1";
+    }
+    let mut rows = names;
+    for size in [32, 128, 256, 1024] {
+        for ways in ["full", "8"] {
+            rows += &format!("\n{},{ways}{ones}", size * 1024);
+        }
+    }
+    for file in files.lines() {
+        fs::create_dir_all(folder.path(file).parent().unwrap()).unwrap();
+        folder.write(file, &rows);
+    }
+    let (done, table, why) = awk("list=");
+    assert!(done, "{why}");
+    let claims = table.lines().skip(1).count();
+    assert_eq!(
+        claims,
+        fs::read_to_string(folder.path("scripts/claims.csv")).unwrap().lines().filter(|l| !l.starts_with('#')).count()
+            - 1
+    );
+    for line in table.lines().skip(1) {
+        let verdicts = [",confirmed,", ",not confirmed,", ",cannot be decided,"];
+        assert_eq!(verdicts.iter().filter(|&&verdict| line.contains(verdict)).count(), 1, "{line}");
+    }
+    // A result that is missing is no verdict.
+    fs::remove_file(folder.path(files.lines().next().unwrap())).unwrap();
+    assert!(!awk("list=").0);
+}
+
+/// Sweeps and claims name one another rightly: what a claim needs is a point of a sweep.
+#[test]
+fn every_result_that_a_claim_needs_is_a_point_of_a_sweep() {
+    let folder = workshop();
+    let asked = make(&folder, "-n out/paper/claims.csv");
+    assert!(asked.status.success(), "{}", said(&asked));
+}
