@@ -3,6 +3,7 @@
 //! Each file answers one question, which is its first line.
 
 mod accuracy;
+mod approximate;
 mod charts;
 mod cli;
 mod curves;

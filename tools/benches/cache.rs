@@ -1,22 +1,21 @@
 //! How fast are the simulated caches, as ratios to the plainest loop that does the job?
 //!
 //! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to place, and a
-//! doubly linked list of places. For sets, it is the blocks of each set in order of use, all of them searched. What is measured starts from accesses to byte offsets, as a trace is replayed. Rounds are
-//! interleaved and medians of processor time compared, so that a busy machine slows both alike. Both must count the same.
+//! doubly linked list of places. For sets, it is the blocks of each set in order of use, all of them searched. What is
+//! measured starts from accesses to byte offsets, as a trace is replayed. Rounds are interleaved and medians of processor
+//! time compared, so that a busy machine slows both alike. Both must count the same.
 //!
 //! The trace is that of k-nearest-neighbour searches in an implicit kd-tree, for queries in no order and in an order that
 //! goes through space cell by cell. `cargo bench -p pm-tools --bench cache [-- QUERIES [ROUNDS]]`.
 #![allow(clippy::print_stdout)]
 
-use std::{
-    fs,
-    hint::black_box,
-    sync::LazyLock,
-    time::{Duration, Instant},
-};
+mod common;
 
+use common::{cpu_time, median, morton, surface_point};
 use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
 use pm_tools::cache::{CacheConfig, Measures, Simulation};
+use pm_tools::random::Random;
+use std::hint::black_box;
 
 const PHOTONS: usize = 400_000;
 const K: usize = 100;
@@ -102,24 +101,11 @@ fn compare(accesses: usize, rounds: usize, contestants: &[Contestant], pairs: &[
     for &(a, b) in pairs {
         assert_eq!(results[a], results[b], "{} and {} count the same", contestants[a].0, contestants[b].0);
     }
-    let median = |times: &mut Vec<f64>| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    let yardstick = median(&mut times[0]);
-    for ((name, _), times) in contestants.iter().zip(&mut times) {
+    let yardstick = median(times[0].clone());
+    for ((name, _), times) in contestants.iter().zip(times) {
         let time = median(times);
         println!("  {name:32} {:7.1} M accesses/s  {:5.2}", accesses as f64 / time / 1e6, yardstick / time);
     }
-}
-
-/// How long this thread has run. Where the system does not tell, how long ago the first call was.
-fn cpu_time() -> Duration {
-    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
-    // Linux: nanoseconds on a processor, nanoseconds waiting for one, number of turns.
-    let times = fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = times.and_then(|times| times.split(' ').next()?.parse().ok());
-    nanoseconds.map_or_else(|| START.elapsed(), Duration::from_nanos)
 }
 
 /// Byte offset of a node whose record does not cross a line.
@@ -278,8 +264,8 @@ struct Tree {
 impl Tree {
     /// Points on the walls and on a ball of a unit room, as photons lie.
     fn new(n: usize) -> Self {
-        let mut random = Random(7);
-        let mut points: Vec<[f32; 3]> = (0..n).map(|_| random.surface_point()).collect();
+        let mut random = Random::new(&[7]);
+        let mut points: Vec<[f32; 3]> = (0..n).map(|_| surface_point(&mut random)).collect();
         let mut tree = Self { points: vec![[0.0; 3]; n + 1], axes: vec![0; n + 1] };
         tree.build(1, &mut points);
         tree
@@ -304,8 +290,8 @@ impl Tree {
 
     /// The nodes that searches visit (from 0), in the order they do.
     fn trace(&self, queries: usize, order: Order) -> Vec<u32> {
-        let mut random = Random(11);
-        let mut points: Vec<[f32; 3]> = (0..queries).map(|_| random.surface_point()).collect();
+        let mut random = Random::new(&[11]);
+        let mut points: Vec<[f32; 3]> = (0..queries).map(|_| surface_point(&mut random)).collect();
         if matches!(order, Order::Cells) {
             points.sort_by_key(morton);
         }
@@ -345,38 +331,4 @@ fn left_size(n: usize) -> usize {
     let full = 1 << n.ilog2();
     let (half, last_row) = (full / 2, n + 1 - full);
     half.max(1) - 1 + last_row.min(half)
-}
-
-/// Bits of the three coordinates interleaved.
-fn morton(p: &[f32; 3]) -> u64 {
-    (0..16).flat_map(|bit| (0..3).map(move |axis| (bit, axis))).fold(0, |key, (bit, axis)| {
-        let cell = (p[axis] * 65535.0) as u64;
-        key << 1 | (cell >> (15 - bit) & 1)
-    })
-}
-
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
-    }
-
-    /// Five walls of the unit cube and a ball in it.
-    fn surface_point(&mut self) -> [f32; 3] {
-        let (u, v) = (self.unit(), self.unit());
-        match (self.unit() * 5.5) as u32 {
-            0 => [u, v, 0.0],
-            1 => [u, v, 1.0],
-            2 => [0.0, u, v],
-            3 => [1.0, u, v],
-            4 => [u, 0.0, v],
-            _ => {
-                let (z, turn) = (2.0 * u - 1.0, std::f32::consts::TAU * v);
-                let r = (1.0 - z * z).sqrt();
-                [0.6 + 0.2 * r * turn.cos(), 0.3 + 0.2 * r * turn.sin(), 0.5 + 0.2 * z]
-            }
-        }
-    }
 }

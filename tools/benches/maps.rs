@@ -7,6 +7,9 @@
 //! `cargo bench -p pm-tools --bench maps [-- QUERIES [ROUNDS [PHOTONS]]]`.
 #![allow(clippy::print_stdout)]
 
+mod common;
+
+use common::{cpu_time, median, morton, surface_point};
 use pm_formats::Photon;
 use pm_tools::photon_map::{
     AccessObserver, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest, PageForm,
@@ -14,7 +17,6 @@ use pm_tools::photon_map::{
 };
 use pm_tools::random::Random;
 use std::hint::black_box;
-use std::time::Instant;
 
 const K: usize = 100;
 
@@ -88,20 +90,15 @@ impl Maps {
             ("kdb", Box::new(|| run(&self.kdb, search, points, &mut Blind))),
             ("grid", Box::new(|| run(&self.grid, search, points, &mut Blind))),
         ];
-        let clock = Instant::now();
         let mut times = vec![Vec::new(); contestants.len()];
         let mut results = vec![0.0; contestants.len()];
         for _ in 0..rounds {
             for (i, (_, contestant)) in contestants.iter_mut().enumerate() {
-                let start = seconds(clock);
+                let start = cpu_time();
                 results[i] = black_box(contestant());
-                times[i].push(seconds(clock) - start);
+                times[i].push((cpu_time() - start).as_secs_f64());
             }
         }
-        let median = |mut ratios: Vec<f64>| {
-            ratios.sort_by(f64::total_cmp);
-            ratios[ratios.len() / 2]
-        };
         for (i, (name, _)) in contestants.iter().enumerate() {
             assert!(results[i] == results[0], "{name} found {} instead of {}", results[i], results[0]);
             // Ratios within a round: both were slowed by the same neighbours.
@@ -110,13 +107,6 @@ impl Maps {
             println!("  {name:30} {:.5}  {micros:6.2} us  {ratio:5.2}", results[i] / points.len() as f64);
         }
     }
-}
-
-/// Seconds that this thread has been running; where the system does not tell, those of the clock on the wall.
-fn seconds(clock: Instant) -> f64 {
-    let schedule = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = schedule.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| clock.elapsed().as_secs_f64(), |nanoseconds| nanoseconds * 1e-9)
 }
 
 fn sum(points: &[[f32; 3]], mut radius: impl FnMut([f32; 3]) -> f32) -> f64 {
@@ -239,32 +229,7 @@ fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f32 {
     (dx * dx + dy * dy) + dz * dz
 }
 
-/// Five walls of the unit cube and a ball in it.
-fn surface_point(random: &mut Random) -> [f32; 3] {
-    let (u, v) = (random.unit(), random.unit());
-    match (random.unit() * 5.5) as u32 {
-        0 => [u, v, 0.0],
-        1 => [u, v, 1.0],
-        2 => [0.0, u, v],
-        3 => [1.0, u, v],
-        4 => [u, 0.0, v],
-        _ => {
-            let (z, turn) = (2.0 * u - 1.0, std::f32::consts::TAU * v);
-            let r = (1.0 - z * z).sqrt();
-            [0.6 + 0.2 * r * turn.cos(), 0.3 + 0.2 * r * turn.sin(), 0.5 + 0.2 * z]
-        }
-    }
-}
-
 /// A point of the room's middle, moved onto the floor.
 fn onto_wall([x, _, z]: [f32; 3]) -> [f32; 3] {
     [x, 0.0, z]
-}
-
-/// Bits of the three coordinates interleaved.
-fn morton(p: &[f32; 3]) -> u64 {
-    (0..16).flat_map(|bit| (0..3).map(move |axis| (bit, axis))).fold(0, |key, (bit, axis)| {
-        let cell = (p[axis] * 65535.0) as u64;
-        key << 1 | (cell >> (15 - bit) & 1)
-    })
 }

@@ -12,6 +12,7 @@ pub use bad_input::{BadInput, bad_input};
 pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
+pub use typed::word_for;
 pub use usage::{UsageError, usage};
 
 use clap::{CommandFactory, FromArgMatches};

@@ -52,23 +52,6 @@ pub enum Form {
 }
 
 impl Form {
-    /// The name, as it is typed.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Raw32 => "raw32",
-            Self::Raw64 => "raw64",
-            Self::Din => "din",
-            Self::Xdin => "xdin",
-            Self::Dinb => "dinb",
-            Self::Lackey => "lackey",
-            Self::OracleGeneral => "oracleGeneral",
-            Self::Csv => "csv",
-            Self::Dramsim3 => "dramsim3",
-            Self::Ramulator2 => "ramulator2",
-        }
-    }
-
     /// Whether it is text.
     #[must_use]
     pub fn is_text(self) -> bool {

@@ -36,6 +36,7 @@ pub use observer::{AccessObserver, Blind, Visits};
 pub use search::{Carry, Search, StartRadius};
 pub use vvh::VvhTree;
 
+use crate::random::mix;
 use pm_formats::Photon;
 use pm_formats::trace::Region;
 
@@ -104,12 +105,32 @@ pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f32 {
     (dx * dx + dy * dy) + dz * dz
 }
 
+/// Least and greatest coordinates along each axis.
+type Box3 = ([f32; 3], [f32; 3]);
+
 /// The smallest box that holds all of some positions.
-fn extent(positions: impl IntoIterator<Item = [f32; 3]>) -> ([f32; 3], [f32; 3]) {
+fn extent(positions: impl IntoIterator<Item = [f32; 3]>) -> Box3 {
     let none = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     positions.into_iter().fold(none, |(low, high), position| {
         ([0, 1, 2].map(|axis| position[axis].min(low[axis])), [0, 1, 2].map(|axis| position[axis].max(high[axis])))
     })
+}
+
+/// The axis along which a box is longest, the first of equals.
+fn longest_axis(bounds: &Box3) -> usize {
+    let side = |axis: usize| bounds.1[axis] - bounds.0[axis];
+    (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest })
+}
+
+/// Ids of at most `most` photons, chosen by a hash of them: a sample that depends on the photons alone and not on the
+/// queries or their order. In no order.
+fn chosen_ids(photons: &[Photon], most: usize) -> Vec<u32> {
+    let mut ids: Vec<u32> = (0..u32::try_from(photons.len()).expect("maps hold fewer than 2^30 photons")).collect();
+    if ids.len() > most {
+        ids.select_nth_unstable_by_key(most, |&id| (mix(u64::from(id)), id));
+        ids.truncate(most);
+    }
+    ids
 }
 
 /// Photons that a map can be built from.

@@ -258,7 +258,7 @@ fn simulate(
             let measures = Measures { results: None, ..measures.clone() };
             let mut simulation = Simulation::measuring(trace.regions(), configs, &measures).context(name.clone())?;
             trace.replay(&mut simulation).context(name)?;
-            let source = Source::foreign(trace.form().name(), trace.regions());
+            let source = Source::foreign(cli::word_for(trace.form()), trace.regions());
             results.add(args, &source, 1, simulation.findings())
         }
     }

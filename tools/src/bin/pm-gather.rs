@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
-use pm_formats::trace::{Region, TraceWriter};
+use pm_formats::trace::TraceWriter;
 use pm_formats::{
     Block, BlockReader, End, Header, Kind, Number, Photon, Section, StageReport, Step, Tally, decode_irradiance,
     decode_weights,
@@ -18,13 +18,14 @@ use pm_tools::gather::{
 use pm_tools::image::{Format, Picture};
 use pm_tools::irradiance::CachedIrradiance;
 use pm_tools::parallel::in_order;
-use pm_tools::photon_map::{
-    Accuracy, AnyMap, BucketKdTree, Building, Layout, MapOptions, PhotonMap, Search, StartRadius,
-};
-use pm_tools::report;
+use pm_tools::photon_map::{AnyMap, Building, MapOptions, PhotonMap, Search, StartRadius};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
+
+#[path = "pm-gather/gathered.rs"]
+mod gathered;
+use gathered::Gathered;
 
 /// Answer gather queries from a photon map; write the memory reads as a trace, and the picture on request.
 ///
@@ -100,7 +101,9 @@ struct Args {
     no_trace: bool,
     /// Describe lookups, map and its building in a .csv, .json or text file
     ///
-    /// Approximate maps are compared with exact answers for 1,000 queries. `-` is standard output, with --no-trace.
+    /// A row of named columns, in text a line for each. Approximate maps are compared with exact answers for 1,000 queries:
+    /// light_error_rms and light_bias are differences of what a query adds to its pixel, over its mean, and not of pixels
+    /// (`pm-view exact.exr approximate.exr`). `-` is standard output, with --no-trace.
     #[arg(long, value_name = "FILE", hide_short_help = true)]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -220,7 +223,7 @@ fn gather(
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
     header.regions = map.regions(args.reread);
-    header.set_meaning("map", args.structure.map.name());
+    header.set_meaning("map", cli::word_for(args.structure.map));
     header.set_meaning("k", args.k);
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
@@ -350,8 +353,9 @@ fn gather(
     write_images(args, picture, images, &origin(args, photons, &query_header, tally))?;
     if let Some(output) = report {
         let lookups = lookups.unwrap_or_else(|| Lookups::new(args.structure.line, &header.regions, None));
-        let values = describe(args, (map, building), photons, &search, lookups, (&header, counts, seconds))?;
-        write_report(args, values, output)?;
+        let gathered =
+            Gathered { args, map, building, photons: &photons.photons, search, header: &header, counts, seconds };
+        gathered.write(&estimate, lookups, output)?;
     }
     if let Some(trace) = trace {
         let mut stages = stages(typed, end, photons, (&search, &map.measures()), counts, tally);
@@ -387,93 +391,6 @@ fn stages(
         ),
     );
     stages
-}
-
-/// What `--report` says, by name. Times and memory are in here and in no stream.
-fn describe(
-    args: &Args,
-    (map, building): (&AnyMap, Option<Building>),
-    photons: &PhotonInput,
-    search: &Search,
-    mut lookups: Lookups,
-    (header, counts, seconds): (&Header, SearchCounts, f64),
-) -> anyhow::Result<Vec<(String, report::Value)>> {
-    use report::Value::{Float, Int, Text};
-    let queries = lookups.queries as f64;
-    let mut values = vec![
-        ("map", Text(args.structure.map.name().into())),
-        ("line", Int(args.structure.line.into())),
-        ("photons", Int(photons.photons.len() as u64)),
-        ("structure_bytes", Int(header.regions.iter().map(|region| region.size).sum())),
-        ("build_seconds", Float(building.map_or(f64::NAN, |building| building.seconds), 3)),
-        ("build_peak_bytes", building.and_then(|building| building.peak_bytes).map_or(Text("-".into()), Int)),
-        ("gather_seconds", Float(seconds, 3)),
-        ("queries", Int(lookups.queries)),
-        ("start_radius", Float(f64::from(search.start), 4)),
-        ("attempts_per_query", Float(counts.attempts as f64 / queries, 4)),
-        ("photons_examined_per_query", Float(lookups.photons_examined as f64 / queries, 5)),
-        ("reads_per_query", Float(lookups.reads as f64 / queries, 5)),
-        ("lines_per_query", Float(lookups.lines as f64 / queries, 5)),
-        ("short_lookups", Int(counts.short)),
-        ("distance_mean", Float(lookups.mean_distance(), 4)),
-        ("distance_p5", Float(lookups.distance_quantile(0.05), 4)),
-        ("distance_p50", Float(lookups.distance_quantile(0.5), 4)),
-        ("distance_p95", Float(lookups.distance_quantile(0.95), 4)),
-        ("distance_largest", Float(lookups.distance_quantile(1.0), 4)),
-    ];
-    values.extend(map.measures().into_iter().map(|(name, number)| {
-        let value = match number {
-            Number::Count(n) | Number::Bytes(n) => Int(n),
-            Number::Real(x) => Float(x, 4),
-        };
-        (name, value)
-    }));
-    if !map.is_exact() {
-        let truth = BucketKdTree::build(&photons.photons, Layout::Heap, 320)?;
-        let blocks = map.blocks();
-        let blocks = blocks.as_ref().map(|(region, blocks)| (*region, &blocks[..]));
-        let found = Accuracy::measure(map, &truth, *search, &lookups.sample(), blocks);
-        values.extend([
-            ("sampled_queries", Int(found.queries)),
-            ("recall_mean", Float(found.mean_recall(), 4)),
-            ("recall_least", Float(found.least_recall, 4)),
-            ("dilation_mean", Float(found.mean_dilation(), 5)),
-            ("dilation_largest", Float(found.largest_dilation, 4)),
-        ]);
-        if blocks.is_some() {
-            values.extend([
-                ("blocks_wanted", Int(found.blocks_wanted())),
-                ("blocks_unreached", Int(found.blocks_unreached())),
-                ("blocks_missed_per_query", Float(found.blocks_missed as f64 / found.queries as f64, 4)),
-            ]);
-        }
-    }
-    let region = |region: &Region| (format!("bytes_of_{}", region.name.replace(' ', "_")), Int(region.size));
-    let values = values.into_iter().map(|(name, value)| (name.to_owned(), value));
-    Ok(values.chain(header.regions.iter().map(region)).collect())
-}
-
-/// Writes a report: a row for programs, or a line for each value for people.
-fn write_report(args: &Args, values: Vec<(String, report::Value)>, mut output: Output) -> anyhow::Result<()> {
-    use report::{Align, Column, Format as Form, Table, Value};
-    let ending = args.report.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
-    let form = match ending {
-        Some("csv") => Form::Csv,
-        Some("json") => Form::Json,
-        _ => Form::Table,
-    };
-    let column = |name: String, align: Align| Column { name, align };
-    let mut table;
-    if form == Form::Table {
-        table = Table::new(vec![column("measure".into(), Align::Left), column("value".into(), Align::Right)]);
-        values.into_iter().for_each(|(name, value)| table.push(vec![Value::Text(name), value]));
-    } else {
-        let (names, row): (Vec<_>, Vec<_>) = values.into_iter().unzip();
-        table = Table::new(names.into_iter().map(|name| column(name, Align::Right)).collect());
-        table.push(row);
-    }
-    table.write(form, &mut output)?;
-    output.commit()
 }
 
 /// Reads what stands before the first query: cached irradiance, if there is any. Also returns the first block of

@@ -6,7 +6,7 @@
 //! the caches larger than the greatest distance it was used at since it was last written, so a write turns it dirty in
 //! the others, and each of these writes it back once.
 
-use super::{RecordCounts, lines::LineChunk, row::ratio, stack_distance::StackDistances};
+use super::{RecordCounts, lines::LineChunk, stack_distance::StackDistances};
 
 /// How many counted events had each stack distance.
 #[derive(Default)]
@@ -146,12 +146,6 @@ impl Curve {
         at(&self.write_backs, lines)
     }
 
-    /// Bytes of a cache of so many lines; `None` beyond 64 bits.
-    #[must_use]
-    pub fn bytes(&self, lines: u64) -> Option<u64> {
-        lines.checked_mul(self.trace.line_bytes.into())
-    }
-
     /// The least size from which on nothing changes, in lines; at least 1.
     #[must_use]
     pub fn last(&self) -> u64 {
@@ -193,18 +187,6 @@ impl Curve {
         sizes.dedup();
         sizes
     }
-
-    /// Lines fetched for each query by a cache of so many lines.
-    #[must_use]
-    pub fn fetches_per_query(&self, lines: u64) -> f64 {
-        ratio(self.fetches(lines), self.trace.queries)
-    }
-
-    /// Fetches over blocks, as [`Row::fetches_per_block`](super::Row::fetches_per_block).
-    #[must_use]
-    pub fn fetches_per_block(&self, lines: u64) -> f64 {
-        ratio(self.fetches(lines), self.trace.blocks)
-    }
 }
 
 /// The entry for so many lines, or the last.
@@ -234,8 +216,6 @@ mod tests {
         assert_eq!((curve.last(), curve.cliff()), (11, Some(11)), "80 over 5 is more than 90 over 7");
         assert_eq!(curve.readable(), [1, 2, 4, 8, 11]);
         assert_eq!((curve.fetches(5), curve.fetches(11), curve.fetches(1 << 40)), (80, 5, 5));
-        assert_eq!((curve.bytes(7), curve.bytes(1 << 60)), (Some(448), None));
-        assert_eq!((curve.fetches_per_query(7), curve.fetches_per_block(11)), (3.5, 1.0));
     }
 
     #[test]

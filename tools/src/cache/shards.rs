@@ -124,7 +124,6 @@ impl Shards {
         SampledCurve {
             trace,
             rate: self.rate,
-            sampled_lines: self.parts.len() as u64,
             misses: self.sample.misses(),
             parts: self.samples.into_iter().map(Sample::misses).collect(),
         }
@@ -146,8 +145,6 @@ pub struct SampledCurve {
     pub trace: TraceCounts,
     /// Share of the lines that is sampled.
     pub rate: f64,
-    /// Lines of the map that are in the sample, touched or not.
-    pub sampled_lines: u64,
     /// By lines of the sample.
     misses: Vec<u64>,
     parts: Vec<Vec<u64>>,

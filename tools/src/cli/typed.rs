@@ -1,7 +1,15 @@
 //! Arguments as typed, without those that cannot change a record.
 
-use clap::Command;
+use clap::{Command, ValueEnum};
 use std::ffi::OsString;
+
+/// The word by which a choice is typed.
+///
+/// # Panics
+/// If it cannot be typed.
+pub fn word_for(choice: impl ValueEnum) -> String {
+    choice.to_possible_value().expect("a choice that can be typed").get_name().to_owned()
+}
 
 /// Options that leave no trace in a stream: how the work is done, not what it is.
 const PASSING: [&str; 6] = ["threads", "quiet", "verbose", "output", "memory", "temporary"];

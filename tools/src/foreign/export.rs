@@ -2,6 +2,7 @@
 
 use super::oracle_general::Requests;
 use super::{Form, dinb};
+use crate::cli::word_for;
 use anyhow::{Context as _, anyhow};
 use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
 use std::io::Write;
@@ -77,7 +78,7 @@ impl<'a, W: Write> Exporter<'a, W> {
             AccessKind::Write => &[true],
             AccessKind::ReadModifyWrite => &[false, true],
         };
-        let beyond = || anyhow!("{len} bytes at address {address:#x} do not fit {}", self.form.name());
+        let beyond = || anyhow!("{len} bytes at address {address:#x} do not fit {}", word_for(self.form));
         match self.form {
             Form::Raw32 => output.write_all(&u32::try_from(address).map_err(|_| beyond())?.to_le_bytes())?,
             Form::Raw64 => output.write_all(&address.to_le_bytes())?,

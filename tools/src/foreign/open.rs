@@ -3,7 +3,7 @@
 use super::entries::{Entries, LONGEST_LINE, Parser, begins_as};
 use super::unpack::{Bytes, peek, unpack};
 use super::{Form, TOLD_BY_CONTENT, Trace};
-use crate::cli::{Input, bad_input, usage};
+use crate::cli::{Input, bad_input, usage, word_for};
 use pm_formats::{BlockReader, MAGIC};
 use std::io::BufReader;
 
@@ -83,7 +83,7 @@ fn told(beginning: &[u8], reading: &Reading) -> Option<Form> {
 
 fn read(form: Form, input: Bytes, reading: &Reading) -> anyhow::Result<Opened> {
     if reading.columns.is_some() && form != Form::Csv {
-        return Err(usage(format!("--columns belongs to csv; the input is {}", form.name())));
+        return Err(usage(format!("--columns belongs to csv; the input is {}", word_for(form))));
     }
     let parser = Parser::new(form, reading.columns.as_deref())?;
     Ok(Opened::Foreign(Trace::read(form, Entries::new(input, parser), reading)?))

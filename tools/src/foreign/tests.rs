@@ -3,7 +3,7 @@
 use super::entries::Parser;
 use super::open::identify;
 use super::*;
-use crate::cli::BadInput;
+use crate::cli::{BadInput, word_for};
 use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
 use pm_formats::{Header, MAGIC};
 use proptest::prelude::*;
@@ -296,6 +296,6 @@ fn what_a_form_cannot_say_is_an_error() {
         exporter.access(Access::read(0, 40, 20));
         exporter.access(Access::read(0, 60, 20));
         let fault = exporter.finish().unwrap_err().to_string();
-        assert_eq!(fault, format!("20 bytes at address 0x10000000028 do not fit {}", form.name()));
+        assert_eq!(fault, format!("20 bytes at address 0x10000000028 do not fit {}", word_for(form)));
     }
 }

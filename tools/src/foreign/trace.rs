@@ -4,6 +4,7 @@ use super::entries::Entries;
 use super::open::{Reading, References};
 use super::pages::Pages;
 use super::{Form, Kind};
+use crate::cli::word_for;
 use crate::spool::{Event, Spool};
 use anyhow::Context as _;
 use pm_formats::trace::{Access, Region, TraceSink};
@@ -45,7 +46,7 @@ impl Trace {
             pages.touch(first, last);
             spool.access(Access { kind, region: 0, len, offset: first }).context("temporary file")?;
         }
-        Ok(Self { form, regions: pages.regions(form.name()), accesses: spool, left_out })
+        Ok(Self { form, regions: pages.regions(&word_for(form)), accesses: spool, left_out })
     }
 
     /// Its format.

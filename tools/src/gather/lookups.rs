@@ -6,7 +6,7 @@ use pm_formats::Query;
 use pm_formats::trace::Region;
 use std::ops::AddAssign;
 
-/// Points of queries that are kept, of all there are.
+/// Queries that are kept, of all there are.
 const SAMPLES: usize = 1000;
 
 /// Bits that are dropped from a distance for the table of quantiles: ten of its fraction stay, a part in a thousand.
@@ -31,8 +31,8 @@ pub struct Lookups {
     distance: f64,
     /// Distances of the k-th photons, sorted.
     quantiles: std::collections::BTreeMap<u32, u64>,
-    /// Hash and point of the queries whose hashes are least.
-    sample: Vec<(u64, [u32; 3])>,
+    /// The queries whose hashes are least, each after its hash.
+    sample: Vec<(u64, Query)>,
     touched: Vec<u64>,
 }
 
@@ -80,14 +80,16 @@ impl Lookups {
             *self.quantiles.entry(distance.to_bits() >> DROPPED).or_default() += 1;
         }
         let hash = mix(u64::from(query.pixel) << 32 | u64::from(query.sample));
-        self.sample.push((hash, query.position.map(f32::to_bits)));
+        self.sample.push((hash, *query));
         if self.sample.len() >= 8 * SAMPLES {
             self.cut_sample();
         }
     }
 
     fn cut_sample(&mut self) {
-        self.sample.sort_unstable();
+        let bytes = bytemuck::bytes_of::<Query>;
+        // Queries of one name are a fault of the stream, which is no reason to choose among them by chance.
+        self.sample.sort_unstable_by(|(a, one), (b, other)| a.cmp(b).then_with(|| bytes(one).cmp(bytes(other))));
         self.sample.truncate(SAMPLES);
     }
 
@@ -110,11 +112,11 @@ impl Lookups {
         f64::NAN
     }
 
-    /// Points of up to 1,000 queries, chosen by a hash of what they are for: the same in every order.
+    /// Up to 1,000 queries, chosen by a hash of what they are for: the same in every order.
     #[must_use]
-    pub fn sample(&mut self) -> Vec<[f32; 3]> {
+    pub fn sample(&mut self) -> Vec<Query> {
         self.cut_sample();
-        self.sample.iter().map(|&(_, point)| point.map(f32::from_bits)).collect()
+        self.sample.iter().map(|&(_, query)| query).collect()
     }
 }
 

@@ -42,7 +42,7 @@ impl AccessObserver for Reached<'_> {
 
 impl Accuracy {
     /// Compares the answers of `map` with those of `truth` at these points. `blocks`: the region of the map's photon
-    /// blocks, and the block of each photon.
+    /// blocks, and the block of each photon. `compare` is shown the point's number, what was found, and the truth.
     #[must_use]
     pub fn measure(
         map: &impl PhotonMap,
@@ -50,16 +50,18 @@ impl Accuracy {
         search: Search,
         points: &[[f32; 3]],
         blocks: Option<(u16, &[u32])>,
+        mut compare: impl FnMut(usize, &Nearest, &Nearest),
     ) -> Self {
         let mut accuracy = Self { least_recall: 1.0, ..Self::default() };
         let (mut found, mut expected) = (Nearest::new(search.k, 0.0), Nearest::new(search.k, 0.0));
         let plain = Search::new(search.k, search.max_dist);
-        for &point in points {
+        for (number, &point) in points.iter().enumerate() {
             let mut records = BTreeSet::new();
             let region = blocks.map_or(u16::MAX, |(region, _)| region);
             plain.run(map, point, &mut found, &mut Reached { region, records: &mut records });
             search.run(truth, point, &mut expected, &mut super::Blind);
             accuracy.add(&found.sorted(), &expected.sorted());
+            compare(number, &found, &expected);
             if let Some((_, block_of)) = blocks {
                 let wanted: BTreeSet<u32> = expected.iter().map(|(_, id)| block_of[id as usize]).collect();
                 accuracy.blocks_missed += wanted.difference(&records).count() as u64;

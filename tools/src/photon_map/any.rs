@@ -28,27 +28,6 @@ pub enum MapKind {
     Brute,
 }
 
-impl MapKind {
-    /// All of them, in the order of the help.
-    pub const ALL: [Self; 8] =
-        [Self::Kd, Self::BucketKd, Self::Vvh, Self::Kdb, Self::Grid, Self::GridFixed, Self::BlockHash, Self::Brute];
-
-    /// Its name on the command line.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Kd => "kd",
-            Self::BucketKd => "bucket-kd",
-            Self::Vvh => "vvh",
-            Self::Kdb => "kdb",
-            Self::Grid => "grid",
-            Self::GridFixed => "grid-fixed",
-            Self::BlockHash => "block-hash",
-            Self::Brute => "brute",
-        }
-    }
-}
-
 /// Which map to build, and how.
 #[derive(clap::Args, Clone, Debug)]
 pub struct MapOptions {

@@ -6,7 +6,7 @@
 use super::layout::{Layout, left_size, place};
 use super::leaves::{Leaves, Point};
 use super::split_tree::{self, Node, SplitTree};
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, extent};
+use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, extent, longest_axis};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 
@@ -93,9 +93,7 @@ impl BucketKdTree {
         }
         // A tree of n leaves has 2n - 1 nodes.
         let left_leaves = left_size(2 * leaves - 1).div_ceil(2);
-        let bounds = extent(points.iter().map(|point| point.position));
-        let side = |axis: usize| bounds.1[axis] - bounds.0[axis];
-        let axis = (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest });
+        let axis = longest_axis(&extent(points.iter().map(|point| point.position)));
         points.select_nth_unstable_by(left_leaves * capacity, Point::along(axis));
         let (left, right) = points.split_at_mut(left_leaves * capacity);
         let low = left.iter().fold(f32::NEG_INFINITY, |low, point| low.max(point.position[axis]));

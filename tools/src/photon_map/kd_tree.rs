@@ -4,7 +4,7 @@
 //! Image Synthesis Using Photon Mapping*, 2001, appendix B.
 
 use super::layout::{Layout, left_size, place};
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared, extent};
+use super::{AccessObserver, Box3, BuildError, Nearest, PhotonMap, check, distance_squared, extent, longest_axis};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 
@@ -81,12 +81,11 @@ impl KdTree {
     }
 }
 
-fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: ([f32; 3], [f32; 3])) {
+fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: Box3) {
     if rest.is_empty() {
         return;
     }
-    let side = |axis: usize| cell.1[axis] - cell.0[axis];
-    let axis = (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest });
+    let axis = longest_axis(&cell);
     let middle = left_size(rest.len());
     let (left, &mut median, right) = rest.select_nth_unstable_by(middle, |a, b| {
         // No NaN gets here; -0 and 0 are one coordinate.

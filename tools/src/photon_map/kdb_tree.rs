@@ -4,7 +4,7 @@
 //! filled from a known set of photons, so that no split is ever forced on a page below.
 
 use super::leaves::{Leaves, Point};
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, extent};
+use super::{AccessObserver, Box3, BuildError, Nearest, PhotonMap, check, extent, longest_axis};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 
@@ -48,8 +48,6 @@ pub struct KdbOptions {
     /// How full blocks and pages are, up to 1. Pages that grow photon by photon are about 0.6 full (Robinson).
     pub fill: f64,
 }
-
-type Box3 = ([f32; 3], [f32; 3]);
 
 /// The tree. The pages, or blocks, below a page have numbers that follow one another.
 pub struct KdbTree {
@@ -182,8 +180,7 @@ fn cut<'a>(points: &'a mut [Point], cell: Box3, count: usize, below: usize, part
     if count <= 1 {
         return parts.push((points, cell));
     }
-    let side = |axis: usize| cell.1[axis] - cell.0[axis];
-    let axis = (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest });
+    let axis = longest_axis(&cell);
     let left_count = count / 2;
     let middle = left_count * below;
     points.select_nth_unstable_by(middle, Point::along(axis));

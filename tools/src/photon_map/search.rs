@@ -1,7 +1,6 @@
 //! One search with its radii: a limit, which is part of the answer, and a hint where to start, which is not.
 
-use super::{AccessObserver, Blind, Nearest, PhotonMap};
-use crate::random::mix;
+use super::{AccessObserver, Blind, Nearest, PhotonMap, chosen_ids};
 use pm_formats::Photon;
 
 /// Where a search starts.
@@ -42,15 +41,10 @@ impl Search {
     /// alone and not on the queries or their order.
     #[must_use]
     pub fn fit_start(mut self, map: &impl PhotonMap, photons: &[Photon]) -> Self {
-        let mut ids: Vec<u32> = (0..u32::try_from(photons.len()).expect("maps hold fewer than 2^30 photons")).collect();
-        if ids.len() > FIT_SAMPLES {
-            ids.select_nth_unstable_by_key(FIT_SAMPLES, |&id| (mix(u64::from(id)), id));
-            ids.truncate(FIT_SAMPLES);
-        }
         let mut found = Nearest::new(self.k, f32::INFINITY);
-        let mut radii: Vec<f32> = ids
-            .iter()
-            .filter_map(|&id| {
+        let mut radii: Vec<f32> = chosen_ids(photons, FIT_SAMPLES)
+            .into_iter()
+            .filter_map(|id| {
                 found.restart(f32::INFINITY);
                 map.nearest(photons[id as usize].position, &mut found, &mut Blind);
                 found.is_full().then(|| found.bound().sqrt())

@@ -96,7 +96,7 @@ fn outcome(map: &AnyMap, stress: &Stress, oracle: &BruteForce) -> String {
     }
     let examined = visits.photons_examined() / points.len() as u64;
     assert!(same || !map.is_exact(), "{}: an exact map found other neighbours", stress.name);
-    let recall = Accuracy::measure(map, oracle, search, &points, None).mean_recall();
+    let recall = Accuracy::measure(map, oracle, search, &points, None, |_, _, _| {}).mean_recall();
     if same { format!("exact {examined}") } else { format!("{recall:.2} {examined}") }
 }
 
@@ -116,6 +116,31 @@ fn every_exact_map_is_exact_under_every_stress() {
     }
     table += "\n\nexact or the mean recall, and the photons examined per query\n";
     if let Some(file) = std::env::var_os("PM_STABILITY_TABLE") {
-        std::fs::write(file, table).unwrap();
+        std::fs::write(file, table + &building(1_000_000)).unwrap();
     }
+}
+
+/// What it takes to build maps of so many photons, where medians, cells or buckets might fail to tell them apart.
+fn building(n: usize) -> String {
+    let width = 12;
+    let mut table = format!("\n{:20}", n);
+    MAPS.iter().for_each(|(name, _)| write!(table, "{name:>width$}").unwrap());
+    for (name, positions) in [
+        ("uniform", random_points(n, |p| p)),
+        ("all identical", vec![[0.1, 0.2, 0.3]; n]),
+        ("two sites", (0..n).map(|i| if i % 2 == 0 { [0.0; 3] } else { [1.0; 3] }).collect()),
+        ("all coplanar", random_points(n, |[x, _, z]| [x, 0.0, z])),
+        ("all collinear", random_points(n, |[x, _, _]| [0.3, x, 0.7])),
+        ("in rising order", (0..n).map(|i| [i as f32, 0.0, 0.0]).collect()),
+    ] {
+        let photons = photons(positions);
+        write!(table, "\n{name:20}").unwrap();
+        for (_, options) in MAPS {
+            let (_, took) = Building::measure(|| Ok::<_, ()>(build(options, &photons, K))).unwrap();
+            let bytes = took.peak_bytes.map_or("-".to_owned(), |peak| (peak / n as u64).to_string());
+            write!(table, "{:>width$}", format!("{:.2} {bytes}", took.seconds)).unwrap();
+        }
+    }
+    table
+        + "\n\nseconds to build a map of so many photons, and the bytes for each at the peak beyond the photons themselves\n"
 }

@@ -8,8 +8,7 @@
 use super::leaves::Point;
 use super::split_tree::{self, Node, SplitTree};
 use super::{AccessObserver, BuildError, Layout, Nearest, PhotonMap, check, distance_squared, extent};
-use super::{Blind, BucketKdTree, Search};
-use crate::random::mix;
+use super::{Blind, Box3, BucketKdTree, Search, chosen_ids, longest_axis};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 use std::f64::consts::PI;
@@ -42,8 +41,6 @@ enum Stored {
     Split { axis: u8, plane: f32, right: u32 },
     Leaf { first: u32, count: u32 },
 }
-
-type Box3 = ([f32; 3], [f32; 3]);
 
 impl VvhTree {
     /// Builds the tree in O(n log n) for searches of `k` photons; leaves hold at most as many as a line does.
@@ -98,17 +95,12 @@ impl VvhTree {
 /// The median of the k-th neighbours' distances at some photons, chosen by a hash of their ids.
 fn typical_radius(photons: &[Photon], k: usize) -> Result<f64, BuildError> {
     let map = BucketKdTree::build(photons, Layout::Heap, 320)?;
-    let mut ids: Vec<u32> = (0..photons.len() as u32).collect();
-    if ids.len() > RADIUS_SAMPLES {
-        ids.select_nth_unstable_by_key(RADIUS_SAMPLES, |&id| (mix(u64::from(id)), id));
-        ids.truncate(RADIUS_SAMPLES);
-    }
     // A photon is its own nearest one.
     let k = k + 1;
     let mut found = Nearest::new(k, f32::INFINITY);
-    let mut radii: Vec<f32> = ids
-        .iter()
-        .map(|&id| {
+    let mut radii: Vec<f32> = chosen_ids(photons, RADIUS_SAMPLES)
+        .into_iter()
+        .map(|id| {
             Search::new(k, f32::INFINITY).run(&map, photons[id as usize].position, &mut found, &mut Blind);
             found.farthest().map_or(0.0, |(distance, _)| distance.sqrt())
         })
@@ -184,9 +176,7 @@ fn bin_of(x: f32, least: f32, greatest: f32) -> usize {
 }
 
 fn median(points: &mut [Point]) -> (usize, usize, f32) {
-    let bounds = extent(points.iter().map(|point| point.position));
-    let side = |axis: usize| bounds.1[axis] - bounds.0[axis];
-    let axis = (1..3).fold(0, |longest, axis| if side(axis) > side(longest) { axis } else { longest });
+    let axis = longest_axis(&extent(points.iter().map(|point| point.position)));
     let middle = points.len() / 2;
     let (_, median, _) = points.select_nth_unstable_by(middle, Point::along(axis));
     (axis, middle, median.position[axis])

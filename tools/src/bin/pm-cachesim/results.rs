@@ -39,14 +39,14 @@ impl Source {
         let sample = header.meaning("sample").unwrap_or_default().to_owned();
         let history = as_commands(&header.history).trim_end().replace('\n', "; ").into();
         let order = order_of(header);
-        Self { order, sample, history, query_bytes, order_bytes, ..Self::foreign("", &header.regions) }
+        Self { order, sample, history, query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
     }
 
     /// A trace in another format.
-    pub(crate) fn foreign(format: &str, regions: &[Region]) -> Self {
+    pub(crate) fn foreign(format: String, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        let (order, sample, history) = (format.to_owned(), String::new(), "".into());
-        Self { order, sample, history, regions, query_bytes: 0, order_bytes: 0 }
+        let (sample, history) = (String::new(), "".into());
+        Self { order: format, sample, history, regions, query_bytes: 0, order_bytes: 0 }
     }
 
     /// What was found of a cache with so many searches in flight.
