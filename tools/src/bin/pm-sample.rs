@@ -103,9 +103,8 @@ impl Sample {
                     all.map(|all| all.div_ceil(every).saturating_mul(window + u64::from(warm_up)));
                 header.set_meaning("sample", format!("windows of {window} queries after {warm_up}, 1 in {every}"));
                 header.set_meaning("sample of", "queries");
-                // How long the stream is shows at its end only.
-                let most = all.map_or("unknown".into(), |all| all.div_ceil(every).to_string());
-                header.set_meaning("sample windows", most);
+                // How long the stream is, and with it their number, shows at its end only.
+                header.set_meaning("sample windows", 0);
                 header.set_meaning("sample share", window as f64 / every as f64);
             }
             Self::Batches(OneOf { one_of, .. }) => {
@@ -194,7 +193,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                 ));
             }
             report = report
-                .with("windows", Number::Count(cutter.windows))
+                .with("windows", Number::Count(all.div_ceil(args.every.unwrap_or(1))))
                 .with("queries_of_warm_up", Number::Count(cutter.warm_ups));
         }
         Sample::Queries(_) => {}
