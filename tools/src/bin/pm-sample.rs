@@ -15,13 +15,13 @@ use std::process::ExitCode;
 
 /// Keep a share of the gather queries: windows of consecutive ones, whole batches, or single ones.
 ///
-/// Take the sample after reordering. --every keeps one window in each so many queries, from which pm-cachesim estimates the
-/// whole with an interval: each window is a batch of its own, simulated by itself and begun with an empty cache, which its
-/// warm-up fills. --batches keeps one of every N batches (scanlines, tiles) in a row. Where in each stratum the seed
-/// decides, so that no step falls in with the width of the picture. Orders of the whole image are one batch, and their
-/// working set is the picture's: thin them by --queries. The header tells the share (--every) and so does the end block;
-/// what the stages before measured is of the whole stream. Tables of cached irradiance beside the queries are passed on
-/// whole. `pm-queries --only-tiles` takes such samples before any ray is cast.
+/// Take the sample after reordering. --every keeps one window in each so many queries, for pm-cachesim to estimate the
+/// whole from: a window is a batch of its own, simulated by itself, and begins with an empty cache, which its warm-up
+/// fills. --batches keeps one of every N batches (scanlines, tiles) in a row. Which one the seed decides, so that no step
+/// falls in with the width of the picture. Orders of the whole image are one batch, and their working set is the
+/// picture's: thin them by --queries. The end block tells the share; what the stages before measured is of the whole
+/// stream. Tables of cached irradiance beside the queries are passed on whole. `pm-queries --only-tiles` takes such
+/// samples before rays are cast.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("what").required(true).args(["every", "batches", "queries"]))]
 struct Args {
