@@ -1,6 +1,38 @@
 # make paper: every table and figure of the paper again, sampled, and what the paper leaves out.
 
-PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures
+PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards failures
+PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest claims)
+PAPER_PICTURES := $(patsubst %,out/paper/%.png,cornell fractal columns)
+
+paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: a quarter of an hour)
+	@echo "Report: $<"
+.PHONY: paper
+
+out/paper/report.html: scripts/report.toml $(PAPER_DATA) $(PAPER_PICTURES) $(wildcard scripts/paper-*.csv)
+	pm-chart -q --page $< -o $@
+
+out/paper/table1.csv: scripts/paper-table1.csv out/table1.csv scripts/table1.awk
+	@mkdir -p $(@D)
+	@awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv > $@
+
+out/paper/storage.csv: out/storage.csv scripts/frontier.awk
+	@mkdir -p $(@D)
+	@awk -f scripts/frontier.awk $< > $@
+
+out/paper/cheapest.csv: out/pictures.csv scripts/cheapest.awk
+	@mkdir -p $(@D)
+	@awk -f scripts/cheapest.awk $< > $@
+
+# The pictures of Figures 1 and 4.
+SCENE_OF_fractal := out/scenes/fractal.obj
+SCENE_OF_columns := out/scenes/columns.obj
+.SECONDEXPANSION:
+$(PAPER_PICTURES): out/paper/%.png: $$(SCENE_OF_$$*) | programs
+	@mkdir -p $(@D)
+	$(LAUNCH) bash -euo pipefail -c 'pm-photons -q $(SCENE_OF_$*) -n 450000 -t $(THREADS) -o out/paper/$*.pmp && \
+	    pm-queries -q $(SCENE_OF_$*) --size 256x256 --gathers 36 -t $(THREADS) --base out/paper/$*.exr | \
+	    pm-gather -q out/paper/$*.pmp - -t $(THREADS) --no-trace --base out/paper/$*.exr --image $@'
+	@test -s $@
 
 # What pictures are compared with: many photons, many neighbours, many rays, another seed.
 out/references/cornell.exr out/references/cornell.base.exr &: | programs

@@ -13,7 +13,7 @@
 #   point    the point's name; without it, its labels joined by dots
 # Every other column is a label: a list of words, and the line stands for a point for each of them (of several labels, for
 # each combination). {label} stands for the word wherever it is written, and scripts/words.csv says what a word adds to a
-# stage. $(NAME) is the value of a variable that make exports. Lines that begin with # are remarks.
+# stage, unless there is a dash. $(NAME) is the value of a variable that make exports. Lines that begin with # are remarks.
 #
 # What several points have in common is made once: photons, and queries with all that follows them in their column, such as
 # `--order tiled | pm-sample --batches 16`.
@@ -121,11 +121,11 @@ function slug(text,   i, c, name) {
 }
 
 function point(   s, i, name, text, out, photons_file, queries_file, needs, scene_needs, pipe, parts, n) {
-    for (s in stage) text[s] = filled(given[s])
+    for (s in stage) text[s] = given[s] == "-" ? "" : filled(given[s])
     # Stages that words add to, labels in the order of the columns.
     for (i = 1; i <= labels; i++) {
         for (s in stage) if ((label[i], word[i], s) in meaning)
-            text[s] = add(s, text[s], filled(meaning[label[i], word[i], s]))
+            if (given[s] != "-") text[s] = add(s, text[s], filled(meaning[label[i], word[i], s]))
         if (label[i] in vocabulary && !((label[i], word[i]) in known)) fail("`" word[i] "` is no " label[i] " that scripts/words.csv knows")
     }
     name = text["point"]

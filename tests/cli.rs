@@ -57,6 +57,7 @@ fn wrong_arguments_are_refused_by_name() {
         ("pm-sample q.pmq", "--batches"),
         ("pm-sample --batches 2 --queries 2 q.pmq", "--queries"),
         ("pm-sample --batches 0 q.pmq", "--batches"),
+        ("pm-sample --every 100 --window 30 q.pmq", "90 or 120 would do"),
         ("pm-gather - -", "standard input"),
         ("pm-gather map.pmp q.pmq -k 0", "-k"),
         ("pm-gather map.pmp q.pmq --max-dist=-1", "a distance of 0 or more"),

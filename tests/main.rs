@@ -27,3 +27,4 @@ mod sweep;
 mod tidy;
 mod variants;
 mod view;
+mod windows;

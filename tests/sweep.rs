@@ -133,7 +133,7 @@ fn every_claim_of_the_paper_has_a_verdict() {
     let (listed, files, _) = awk("list=1");
     assert!(listed && files.lines().count() > 50, "{files}");
     let columns = ["bytes_fetched", "bytes_per_query", "fetches_per_query", "fetches_per_block", "reads_per_query"];
-    let columns = [&columns[..], &["queries", "blocks", "orphans"]].concat();
+    let columns = [&columns[..], &["queries", "blocks", "blocks_unreferenced"]].concat();
     let (mut names, mut ones) = ("cache_bytes,ways".to_owned(), String::new());
     for column in columns {
         names = format!("{names},{column}");

@@ -28,8 +28,9 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("size", &[]),
     ("spool", &["formats"]),
     ("statistics", &[]),
-    ("transport", &["scene", "irradiance", "hemisphere", "order", "random", "formats"]),
+    ("transport", &["scene", "irradiance", "hemisphere", "order", "parallel", "random", "formats"]),
     ("view", &["cli", "image", "random", "report", "formats"]),
+    ("windows", &["random"]),
 ];
 
 /// What tests may know beyond what their module may: where random numbers come from.

@@ -42,6 +42,14 @@ fn all_formats_have_the_same_values() {
     assert_eq!(csv.len(), 1 + 3 * 4);
     assert!(csv.iter().all(|row| row.len() == csv[0].len()));
 
+    // Each row tells how its trace came, as one line for a shell.
+    let history = csv[0].iter().position(|name| name == "history").expect("a column");
+    for (row, trace) in [(1, "t.pmt"), (5, "th.pmt"), (9, "none.pmt")] {
+        let told = folder.run(&format!("pm-view --history {trace}")).ok();
+        assert_eq!(csv[row][history], told.text().trim_end().replace('\n', "; "), "{trace}");
+        assert!(csv[row][history].contains("pm-gather map.pmp"), "{}", csv[row][history]);
+    }
+
     let json: Value = serde_json::from_str(&print("json")).expect("JSON");
     assert_eq!(json["schema"], 1);
     assert_eq!(json["columns"], Value::from(csv[0].clone()));

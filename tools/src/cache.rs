@@ -72,5 +72,5 @@ pub use results::{ResultMemory, SECTOR_BYTES};
 pub use row::{More, RecordCounts, Row};
 pub use shards::{Estimate, LEAST_MODEL, SampledCurve};
 pub use simulation::{Simulation, SimulationError};
-pub use windows::{Counts, Interval, WindowError, WindowedRow, Windows};
+pub use windows::{Counts, WindowError, WindowedRow, Windows};
 pub use working_set::{Distribution, WorkingSets};

@@ -25,3 +25,4 @@ pub mod spool;
 pub mod statistics;
 pub mod transport;
 pub mod view;
+pub mod windows;

@@ -10,6 +10,7 @@ mod gather_rays;
 mod guide;
 mod lights;
 mod photon_paths;
+mod ray_plan;
 mod reflection;
 mod sampling;
 mod scatter;
@@ -19,6 +20,7 @@ pub use bvh::{Bvh, RayCaster, RayHit};
 pub use cache_records::{CacheOptions, CacheRecords};
 pub use gather_rays::{GatherOptions, GatherRays, Method, RayCounts, Strata};
 pub use photon_paths::{PathPhoton, PhotonPaths};
+pub use ray_plan::{Piece, RayPlan};
 pub use reflection::Spread;
 pub use surface::{Stage, SurfacePoint};
 

@@ -166,6 +166,12 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     let photons = PhotonInput::read(&args.photons)?;
     let queries = open_input(&args.queries)?.expect_kind(Kind::Queries).with_context(|| named(&args.queries))?;
+    if let Some(sample) = queries.header().meaning("sample").filter(|_| !args.image.is_empty()) {
+        let name = named(&args.queries);
+        return Err(cli::usage(format!(
+            "--image: {name} is a sample ({sample}), and a part of the queries gives no picture: leave out --image"
+        )));
+    }
     if photons.header.bounds != queries.header().bounds {
         args.common.remark("the photons and the queries are not of the same scene: their bounds differ");
     }

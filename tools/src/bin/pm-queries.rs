@@ -1,15 +1,18 @@
 //! Casts the rays of a picture and writes where photons are to be gathered.
 
+#[path = "pm-queries/part.rs"]
+mod part;
+
 use anyhow::Context as _;
 use clap::Parser;
+use part::{Job, PartArgs};
 use pm_formats::{
-    BLOCK_RECORDS, BlockMeta, Bounds, Number, Photon, Query, RecordWriter, StageReport, encode_irradiance,
-    encode_weights,
+    BLOCK_RECORDS, Bounds, Number, Photon, Query, RecordWriter, StageReport, encode_irradiance, encode_weights,
 };
 use pm_tools::cli::{self, Common, Output, OutputArgs, Progress, Typed, Whole, create_output, named};
 use pm_tools::film::{Film, Overflow};
 use pm_tools::image::{Format, Picture};
-use pm_tools::order::{Generative, Span};
+use pm_tools::order::Generative;
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
 use pm_tools::transport::{CacheOptions, CacheRecords, GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
@@ -72,6 +75,8 @@ struct Args {
     /// Shadow rays for each point seen, for the direct light
     #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     light_samples: u32,
+    #[command(flatten)]
+    part: PartArgs,
     /// Seed of the random numbers
     #[arg(long, default_value = "0")]
     seed: u64,
@@ -138,9 +143,8 @@ fn spacing(text: &str) -> Result<[f32; 2], String> {
     parsed.filter(|&[min, max]: &[f32; 2]| min > 0.0 && max >= min && max.is_finite()).ok_or_else(|| error.into())
 }
 
-/// The queries and the light of a span of pixels.
+/// The queries and the light of a job.
 struct Cast {
-    batch: u64,
     queries: Vec<Query>,
     light: Vec<(u32, [i128; 3])>,
     counts: RayCounts,
@@ -178,7 +182,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut header = header(&scene);
     header.image = size;
     let gathers = if args.direct_visualisation { 1 } else { args.gathers };
-    header.expected_records = Some(pixels * u64::from(args.samples) * u64::from(gathers));
     header.set_meaning("order", order);
     if args.direct_visualisation {
         header.set_meaning("gathers", "none: direct visualisation");
@@ -200,9 +203,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     header.history.push(step);
 
-    // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
-    let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let options = GatherOptions {
         method: if args.direct_visualisation { Method::DirectVisualisation } else { Method::FinalGather },
         samples: args.samples,
@@ -216,7 +216,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         light_samples: args.light_samples,
         seed: args.seed,
         // Records carry the light that their rays meet, picture or not.
-        direct: base.is_some() || args.irradiance_cache.is_some(),
+        direct: args.base.is_some() || args.irradiance_cache.is_some(),
         strata: args.strata,
     };
     let mut rays = GatherRays::new(&scene, camera, options).with_bins(order.bins());
@@ -228,6 +228,16 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             args.common.remark(format!("{path} holds {why}: nothing guides the gather rays, the cosine spreads them"));
         }
     }
+    let mut counts = RayCounts::default();
+    let part = args.part.choose(order, size, &rays, args.common.threads(), &mut counts)?;
+    part.set_meaning(&mut header);
+    let to_do = part.size(order, size);
+    let most = if part.unit() == "rays" { 1 } else { u64::from(args.samples) * u64::from(gathers) };
+    header.expected_records = Some(to_do * most);
+
+    // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
+    let base = args.base.as_ref().map(|path| create_output(path).map(|file| (path, file))).transpose()?;
+    let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let wanted = base.is_some();
     let mut film = Film::new(if wanted { usize::try_from(pixels)? } else { 0 }, light_scale(&scene));
     // The threads only need its unit.
@@ -240,23 +250,24 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         write_cache(cache, &rays, size, args.common.threads(), &mut output)?;
     }
 
-    let progress = Progress::new(Some(pixels), "pixels", args.common.quiet);
-    let mut counts = RayCounts::default();
-    let mut spans = order.spans(size);
+    let progress = Progress::new(Some(to_do), part.unit(), args.common.quiet);
+    let mut jobs = part.jobs(order, size);
     // A span of few rays is not worth a message to a thread and back.
     let rays_a_pixel = u64::from(args.samples) * u64::from(gathers.div_ceil(order.bins()));
-    let some_spans = || {
+    let some_jobs = || {
         let (mut some, mut rays) = (vec![], 0);
         while rays < WORTH_A_JOB {
-            let Some(span) = spans.next() else { break };
-            rays += u64::from(span.columns.end - span.columns.start) * rays_a_pixel;
-            some.push(span);
+            let Some(job) = jobs.next() else { break };
+            let pixels = u64::from(job.span.columns.end - job.span.columns.start);
+            rays += job.rays.as_ref().map_or(pixels * rays_a_pixel, |_| job.size());
+            some.push(job);
         }
         anyhow::Ok(Some(some).filter(|some| !some.is_empty()))
     };
-    let cast = |span: &Span| {
-        let mut cast = Cast { batch: span.batch, queries: vec![], light: vec![], counts: RayCounts::default() };
+    let cast = |Job { span, rays: some, .. }: &Job| {
+        let mut cast = Cast { queries: vec![], light: vec![], counts: RayCounts::default() };
         let mut too_bright = None;
+        let mut left = some.clone();
         for x in span.columns.clone() {
             let pixel = span.row * size[0] + x;
             let light = |radiance: glam::Vec3| {
@@ -267,26 +278,28 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                     }
                 }
             };
-            let query = |query| cast.queries.push(query);
-            rays.pixel([x, span.row], span.pass, cache.as_ref(), query, light, &mut cast.counts);
+            let (at, query) = ([x, span.row], |query| cast.queries.push(query));
+            match &mut left {
+                None => rays.pixel(at, span.pass, cache.as_ref(), query, light, &mut cast.counts),
+                Some(left) if left.is_empty() => break,
+                Some(left) => rays.some_of_pixel(at, span.pass, left, query, &mut cast.counts),
+            }
         }
         too_bright.map_or(Ok(cast), Err)
     };
     in_order(
         args.common.threads(),
-        some_spans,
-        |spans: Vec<Span>| spans.iter().map(|span| (cast(span), span.clone())).collect::<Vec<_>>(),
+        some_jobs,
+        |jobs: Vec<Job>| jobs.into_iter().map(|job| (cast(&job), job)).collect::<Vec<_>>(),
         |casts| {
-            for (cast, span) in casts {
+            for (cast, job) in casts {
                 let cast = cast?;
-                output.write(BlockMeta { batch: cast.batch, ..BlockMeta::default() }, &cast.queries)?;
+                output.write(job.meta, &cast.queries)?;
                 for (pixel, units) in cast.light {
                     film.add(pixel, units)?;
                 }
                 counts += cast.counts;
-                if span.pass.is_first() {
-                    progress.add(u64::from(span.columns.end - span.columns.start));
-                }
+                progress.add(job.size());
             }
             anyhow::Ok(())
         },
@@ -294,7 +307,8 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     drop(progress);
 
     if counts.eye > 0 && counts.seen == 0 {
-        args.common.remark("the camera sees no diffuse surface: there are no queries");
+        let eye = if part.is_of_batches() { "what was chosen of the picture" } else { "the camera" };
+        args.common.remark(format!("{eye} sees no diffuse surface: there are no queries"));
     }
     // Complete before the end block is: whoever has read that may read the picture.
     if let Some((path, mut file)) = base {
@@ -305,6 +319,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         .with("eye_rays", Number::Count(counts.eye))
         .with("gather_rays", Number::Count(counts.gather))
         .with("gather_rays_lost", Number::Count(counts.gather_lost));
+    report = part.measure(report);
     if let Some(cache) = &cache {
         report = report.with("irradiance_records", Number::Count(cache.len() as u64));
     }

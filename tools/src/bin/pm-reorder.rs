@@ -121,6 +121,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let name = named(&args.queries);
     let mut queries = RecordReader::<Query, _>::from_blocks(open_input(&args.queries)?).context(name.clone())?;
     let mut header = queries.header().clone();
+    check_sample(&args, &name, &header)?;
     header.set_meaning("deferred order", label(&args));
     let seed = (args.order == Order::Random).then_some(args.seed);
     let inputs = photons.iter().map(|photons| (photons.name.clone(), photons.history.clone())).collect();
@@ -139,6 +140,24 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut report = StageReport::new(typed.program());
     report.measures = order.measures();
     output.finish_with_same_records(queries.end()?, report)?.commit()
+}
+
+/// Windows of a stream stay apart.
+fn check_sample(args: &Args, name: &str, header: &Header) -> anyhow::Result<()> {
+    let Some(sample) = header.meaning("sample").filter(|_| header.meaning("sample windows").is_some()) else {
+        return Ok(());
+    };
+    if args.per == Per::Image {
+        return Err(usage(format!(
+            "{name} holds {sample}, which stay apart: give --per batch, or take the sample after reordering"
+        )));
+    }
+    if header.meaning("sample of") != Some("batches") {
+        args.voice.remark(format!(
+            "{name} holds {sample}: the queries of each are ordered by themselves, which is not the order of all"
+        ));
+    }
+    Ok(())
 }
 
 /// Writes blocks that stand beside the queries as they are.

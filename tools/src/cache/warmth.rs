@@ -1,7 +1,8 @@
 //! Whether an LRU cache that began empty holds what it would hold had it run for ever.
 //!
 //! A set of LRU holds the lines of it last used, as many as it has ways. So what was before is forgotten, and the state
-//! *exact*, once each set has seen as many distinct lines as it has ways, or all that there are for it.
+//! *exact*, once each set has seen as many distinct lines as it has ways, or all that there are for it. Until then a line
+//! that a set sees for the first time is a miss that might have been a hit; all else is known.
 
 use pm_formats::trace::{Access, Region};
 
@@ -68,9 +69,11 @@ impl Warmth {
         self.open == 0
     }
 
-    /// It sees an access, which lies within its region.
-    pub(super) fn see(&mut self, access: &Access) {
+    /// It sees an access, which lies within its region. Returns how many of its lines are seen for the first time since the
+    /// start by a set that is not yet filled: whether the cache would have them, had it run for ever, is not known.
+    pub(super) fn see(&mut self, access: &Access) -> u64 {
         let (first, last) = self.space.ends(access.offset, Shape::new(access));
+        let mut unknown = 0;
         for slot in first..=last {
             if std::mem::replace(&mut self.seen[slot as usize], self.starts) == self.starts {
                 continue;
@@ -78,8 +81,10 @@ impl Warmth {
             let missing = &mut self.missing[self.sets.of(self.space.line(access.region.into(), slot))];
             if *missing > 0 {
                 *missing -= 1;
+                unknown += 1;
                 self.open -= usize::from(*missing == 0);
             }
         }
+        unknown
     }
 }

@@ -59,8 +59,8 @@ impl Ranged for Ruler {
 
 /// Width and height of a key of the legend in pixels.
 const KEY: (u32, u32) = (28, 14);
-/// Height of a line of text in pixels.
-const LETTER: i32 = 13;
+/// Height of a line of text in pixels; the library's letters are 1.24 times smaller.
+const LETTER: i32 = 16;
 /// Half the extent of a mark in pixels.
 const MARK: i32 = 4;
 
@@ -138,12 +138,12 @@ impl Plot {
 
         // Words that do not fit beside one another stand upright.
         let longest = x.words().iter().map(|word| letters(word)).max().unwrap_or(0);
-        let room = (width - legend - 64 - 26) / i32::try_from(x.words().len().max(1))?;
+        let room = (width - legend - 68 - 26) / i32::try_from(x.words().len().max(1))?;
         let upright = longest > room;
-        let labels = if upright { longest.saturating_add(34).min(height / 2) } else { 44 };
+        let labels = if upright { longest.saturating_add(40).min(height / 2) } else { 46 };
 
         let mut builder = ChartBuilder::on(&left);
-        builder.margin(8).margin_right(18).x_label_area_size(labels).y_label_area_size(64);
+        builder.margin(8).margin_right(18).x_label_area_size(labels).y_label_area_size(68);
         if !look.title.is_empty() {
             builder.caption(&look.title, ("sans-serif", LETTER + 3).into_font().color(&INK));
         }
@@ -152,22 +152,28 @@ impl Plot {
         let across = Ruler::new(x, xs, most(width - legend, 60));
         let mut chart = builder.build_cartesian_2d(across, Ruler::new(y, ys, most(height, 40)))?;
         let letter = ("sans-serif", LETTER).into_font();
-        let turned = if upright { letter.transform(FontTransform::Rotate270) } else { letter.clone() };
-        let turned = turned.color(&INK);
-        let end = if upright { Pos::new(HPos::Right, VPos::Center) } else { Pos::new(HPos::Center, VPos::Top) };
         chart
             .configure_mesh()
             .bold_line_style(GRID)
             .light_line_style(TRANSPARENT)
             .axis_style(INK)
             .label_style(letter.color(&INK))
-            .x_label_style(turned.pos(end))
             .axis_desc_style(("sans-serif", LETTER + 1).into_font().color(&INK))
             .x_desc(&x.label)
             .y_desc(&y.label)
-            .x_label_formatter(&|&place| x.tick_label(place))
+            .x_label_formatter(&|&place| if upright { String::new() } else { x.tick_label(place) })
             .y_label_formatter(&|&place| y.tick_label(place))
             .draw()?;
+        if upright {
+            // The library would centre them on the axis.
+            let style = letter.transform(FontTransform::Rotate270).color(&INK).pos(Pos::new(HPos::Right, VPos::Center));
+            let area = chart.plotting_area();
+            let bottom = area.get_pixel_range().1.end + 8;
+            for (at, word) in x.words().iter().enumerate() {
+                let across = area.map_coordinate(&(at as f64, 0.0)).0;
+                root.draw(&Text::new(word.clone(), (across, bottom), style.clone()))?;
+            }
+        }
 
         for (number, series) in self.reference.iter().enumerate() {
             self.draw_series(&mut chart, series, GREY, number, false)?;
@@ -181,7 +187,7 @@ impl Plot {
 
         // However many series there are, all are named.
         let rows = i32::try_from(names.len().max(1))?;
-        let step = ((height - 48) / rows).clamp(1, LETTER + 7);
+        let step = ((height - 48) / rows).clamp(1, LETTER + 4);
         for (row, name) in names.iter().enumerate().filter(|_| look.legend) {
             let at = 36 + i32::try_from(row)? * step;
             let (number, colour, lines) = match row.checked_sub(self.series.len()) {
@@ -281,7 +287,7 @@ const DASH: (i32, i32) = (6, 4);
 
 /// About how many pixels wide a text is. The library would measure it only with the fonts of a system.
 fn letters(text: &str) -> i32 {
-    i32::try_from(text.chars().count()).unwrap_or(i32::MAX).saturating_mul(13) / 2
+    i32::try_from(text.chars().count()).unwrap_or(i32::MAX).saturating_mul(7)
 }
 
 /// Behind the opening tag of a picture.

@@ -84,8 +84,28 @@ impl Generative {
                 columns: 0..width,
                 pass: Leaves::All.into(),
             })),
-            Self::Tiled { tile } => tiles(tile, 1, [width, height]),
-            Self::DirectionBinned { tile, bins } => tiles(tile, bins, [width, height]),
+            Self::Tiled { tile } | Self::DirectionBinned { tile, .. } => self.tiles(tile, [width, height]),
+        }
+    }
+
+    /// The passes over each batch, in order.
+    pub fn passes(self) -> impl Iterator<Item = Pass> + Clone {
+        let (leaves, bins): (&[Leaves], u32) = match self {
+            Self::Scanline => (&[Leaves::All], 1),
+            Self::Tiled { .. } => (&TILE_LEAVES, 1),
+            Self::DirectionBinned { bins, .. } => (&TILE_LEAVES, bins),
+        };
+        leaves.iter().flat_map(move |&leaves| (0..bins).map(move |bin| Pass { leaves, bin }))
+    }
+
+    /// Number of batches of an image.
+    #[must_use]
+    pub fn batches(self, [width, height]: [u32; 2]) -> u64 {
+        match self {
+            Self::Scanline => height.into(),
+            Self::Tiled { tile } | Self::DirectionBinned { tile, .. } => {
+                u64::from(width.div_ceil(tile)) * u64::from(height.div_ceil(tile))
+            }
         }
     }
 
@@ -97,23 +117,24 @@ impl Generative {
             Self::DirectionBinned { bins, .. } => bins,
         }
     }
+
+    /// Tile by tile, all passes over each.
+    fn tiles(self, tile: u32, [width, height]: [u32; 2]) -> Box<dyn Iterator<Item = Span>> {
+        let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
+        let tiles = (0..down).flat_map(move |y| (0..across).map(move |x| (x, y)));
+        Box::new((0..).zip(tiles).flat_map(move |(batch, (x, y))| {
+            let columns = x * tile..(x.saturating_add(1)).saturating_mul(tile).min(width);
+            let rows = y * tile..(y.saturating_add(1)).saturating_mul(tile).min(height);
+            self.passes().flat_map(move |pass| {
+                let columns = columns.clone();
+                rows.clone().map(move |row| Span { batch, row, columns: columns.clone(), pass })
+            })
+        }))
+    }
 }
 
-/// Tile by tile, with `bins` passes over each for what is seen directly and as many for the rest.
-fn tiles(tile: u32, bins: u32, [width, height]: [u32; 2]) -> Box<dyn Iterator<Item = Span>> {
-    let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
-    let tiles = (0..down).flat_map(move |y| (0..across).map(move |x| (x, y)));
-    Box::new((0..).zip(tiles).flat_map(move |(batch, (x, y))| {
-        let columns = x * tile..(x.saturating_add(1)).saturating_mul(tile).min(width);
-        let rows = y * tile..(y.saturating_add(1)).saturating_mul(tile).min(height);
-        let leaves = [Leaves::Direct, Leaves::BehindSpecular].into_iter();
-        let passes = leaves.flat_map(move |leaves| (0..bins).map(move |bin| Pass { leaves, bin }));
-        passes.flat_map(move |pass| {
-            let columns = columns.clone();
-            rows.clone().map(move |row| Span { batch, row, columns: columns.clone(), pass })
-        })
-    }))
-}
+/// In a tile, what is seen directly, and then what is seen in mirrors and through glass.
+const TILE_LEAVES: [Leaves; 2] = [Leaves::Direct, Leaves::BehindSpecular];
 
 impl fmt::Display for Generative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

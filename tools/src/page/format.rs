@@ -87,11 +87,11 @@ fn significant(value: f64, digits: usize) -> String {
     format!("{rounded:.0$}", usize::try_from(decimals).unwrap_or(0))
 }
 
-/// `128K` where it comes out even, else so many significant digits of the greatest unit that is not greater.
+/// `128K` where that is short, else so many significant digits of the greatest unit that is not greater.
 fn bytes(value: f64, digits: usize) -> String {
     if value >= 0.0 && value < 2.0_f64.powi(53) && value.fract() == 0.0 {
         let even = Bytes(value as u64).to_string();
-        if even.ends_with(|c: char| c.is_ascii_alphabetic()) || value < 1024.0 {
+        if even.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len() <= 3 {
             return even;
         }
     }
@@ -143,6 +143,7 @@ mod tests {
             (".2e", 0.000_123_4, "1.23e-4"),
             ("B", 131_072.0, "128K"),
             ("B", 100.0, "100"),
+            ("B", 9_763_246_080.0, "9.09G"),
             (".2B", 1_500_000.0, "1.4M"),
             ("B", 3_785_600.0, "3.61M"),
             ("", 0.5, "0.5"),

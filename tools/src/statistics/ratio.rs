@@ -70,8 +70,11 @@ pub struct Ratio {
     pub value: f64,
     /// The sum below the line, by which ratios of several samples are weighted.
     pub weight: f64,
-    /// How far the ratio may be off.
+    /// How far the ratio may be off by chance.
     pub spread: Spread,
+    /// How far it may be off beside, as what is above the line is known between bounds only. No number of windows makes it
+    /// less.
+    pub doubt: f64,
 }
 
 impl Ratio {
@@ -83,8 +86,28 @@ impl Ratio {
     pub fn of(above: &[f64], below: &[f64]) -> Self {
         let weight = below.iter().sum::<f64>();
         let value = above.iter().sum::<f64>() / weight;
-        let spread = Spread::of_sum(&residuals(above, below, value)).scaled(1.0 / weight);
-        Self { value, weight, spread }
+        let residuals: Vec<f64> = above.iter().zip(below).map(|(above, below)| above - value * below).collect();
+        Self { value, weight, spread: Spread::of_sum(&residuals).scaled(1.0 / weight), doubt: 0.0 }
+    }
+
+    /// The same where of each `most` above the line as much as `unknown` may be nothing: the middle of the bounds.
+    #[must_use]
+    pub fn between(most: &[f64], unknown: &[f64], below: &[f64]) -> Self {
+        let middle: Vec<f64> = most.iter().zip(unknown).map(|(most, unknown)| most - unknown / 2.0).collect();
+        let ratio = Self::of(&middle, below);
+        Self { doubt: unknown.iter().sum::<f64>() / 2.0 / ratio.weight, ..ratio }
+    }
+
+    /// The sum of all strata, of whose whole the windows are a `share`.
+    #[must_use]
+    pub fn total(most: &[f64], unknown: &[f64], share: f64) -> Self {
+        let middle: Vec<f64> = most.iter().zip(unknown).map(|(most, unknown)| most - unknown / 2.0).collect();
+        Self {
+            value: middle.iter().sum::<f64>() / share,
+            weight: share,
+            spread: Spread::of_sum(&middle).scaled(1.0 / share),
+            doubt: unknown.iter().sum::<f64>() / 2.0 / share,
+        }
     }
 
     /// The ratio of two samples drawn independently, as of one: weighted by what each has below the line.
@@ -96,13 +119,15 @@ impl Ratio {
             value: self.value * mine + other.value * its,
             weight,
             spread: self.spread.scaled(mine).plus(other.spread.scaled(its)),
+            doubt: self.doubt * mine + other.doubt * its,
         }
     }
-}
 
-/// What each window has above the line beyond what `ratio` lets expect of what it has below.
-pub(super) fn residuals(above: &[f64], below: &[f64], ratio: f64) -> Vec<f64> {
-    above.iter().zip(below).map(|(above, below)| above - ratio * below).collect()
+    /// Half the width of the interval that holds the truth 95 times of 100: what chance and doubt make of it.
+    #[must_use]
+    pub fn half_width(&self) -> f64 {
+        self.spread.half_width() + self.doubt
+    }
 }
 
 #[cfg(test)]
@@ -140,11 +165,23 @@ mod tests {
     }
 
     #[test]
+    fn what_is_unknown_is_halved() {
+        let (most, unknown, below) = ([4.0, 10.0, 7.0], [2.0, 0.0, 1.0], [1.0, 2.0, 2.0]);
+        let ratio = Ratio::between(&most, &unknown, &below);
+        assert_eq!(Ratio { doubt: 0.0, ..ratio }, Ratio::of(&[3.0, 10.0, 6.5], &below));
+        assert!(close(ratio.doubt, 1.5 / 5.0) && close(ratio.value - ratio.doubt, 18.0 / 5.0));
+        let total = Ratio::total(&most, &unknown, 0.1);
+        assert!(close(total.value, 195.0) && close(total.doubt, 15.0));
+        assert!(close(total.spread.variance, 100.0 * Spread::of_sum(&[3.0, 10.0, 6.5]).variance));
+    }
+
+    #[test]
     fn samples_put_together_are_weighted_by_size() {
-        let one = Ratio { value: 1.0, weight: 3.0, spread: Spread { variance: 4.0, freedom: 9.0 } };
-        let other = Ratio { value: 5.0, weight: 1.0, spread: Spread { variance: 16.0, freedom: 4.0 } };
+        let one = Ratio { value: 1.0, weight: 3.0, spread: Spread { variance: 4.0, freedom: 9.0 }, doubt: 0.4 };
+        let other = Ratio { value: 5.0, weight: 1.0, spread: Spread { variance: 16.0, freedom: 4.0 }, doubt: 0.8 };
         let both = one.with(other);
-        assert!(close(both.value, 2.0) && close(both.weight, 4.0));
+        assert!(close(both.value, 2.0) && close(both.weight, 4.0) && close(both.doubt, 0.5));
+        assert!(close(both.half_width(), both.spread.half_width() + 0.5));
         assert!(close(both.spread.variance, 4.0 * 9.0 / 16.0 + 1.0));
         assert!(close(both.spread.freedom, 3.25 * 3.25 / (2.25 * 2.25 / 9.0 + 0.25)));
     }

@@ -21,14 +21,16 @@ const MARGIN: f64 = 0.05;
 const LEAST_ROUND: u64 = 8;
 
 impl Tuning {
-    /// How many windows are to be added to `windows` that gave `ratio`; none if its interval is narrow enough.
+    /// How many windows are to be added to `windows` that gave `ratio`; none if its interval is narrow enough, or if so much
+    /// is in doubt that no number of windows makes it so.
     #[must_use]
     pub fn missing(&self, windows: u64, ratio: &Ratio) -> u64 {
-        let wide = ratio.spread.half_width() / (self.until * ratio.value);
         if windows == 0 {
             return self.pilot;
         }
-        if wide <= 1.0 {
+        let left = self.until * ratio.value - ratio.doubt;
+        let wide = ratio.spread.half_width() / left;
+        if wide <= 1.0 || left <= 0.0 {
             return 0;
         }
         if !wide.is_finite() {
@@ -51,12 +53,15 @@ mod tests {
         let ratio = |width: f64| {
             // So many degrees of freedom that t is the normal distribution's.
             let spread = Spread { variance: (width / 1.959_964_f64).powi(2), freedom: 1e9 };
-            Ratio { value: 50.0, weight: 1.0, spread }
+            Ratio { value: 50.0, weight: 1.0, spread, doubt: 0.0 }
         };
         assert_eq!(tuning.missing(0, &Ratio::default()), 100);
         assert_eq!(tuning.missing(100, &ratio(0.499)), 0);
         assert_eq!(tuning.missing(100, &ratio(0.501)), 8);
         assert!((319..=321).contains(&tuning.missing(100, &ratio(1.0))));
         assert_eq!(tuning.missing(100, &Ratio { value: 1.0, ..Ratio::default() }), 100);
+        // Half of the width is left to chance, then nothing.
+        assert!((319..=321).contains(&tuning.missing(100, &Ratio { doubt: 0.25, ..ratio(0.5) })));
+        assert_eq!(tuning.missing(100, &Ratio { doubt: 0.5, ..ratio(0.5) }), 0);
     }
 }

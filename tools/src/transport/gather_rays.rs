@@ -17,6 +17,8 @@ use crate::random::Random;
 use crate::scene::{Camera, Scene};
 use glam::Vec3;
 use pm_formats::{Photon, Query};
+use std::borrow::Cow;
+use std::ops::Range;
 
 /// How queries are made.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +106,21 @@ pub struct GatherRays<'a> {
     guide: Option<Guide>,
 }
 
+/// What of a pixel is cast at a visit: a pass, and of its rays those with these numbers.
+struct Part<'r> {
+    pass: Pass,
+    rays: &'r mut Range<u64>,
+}
+
+/// Which of the next `n` rays lie in `rays`, whose numbers are then counted from behind these.
+fn take(rays: &mut Range<u64>, n: usize) -> Range<usize> {
+    let within = |at: u64| at.min(n as u64) as usize;
+    let taken = within(rays.start)..within(rays.end);
+    let less = |at: u64| at.saturating_sub(n as u64);
+    *rays = less(rays.start)..less(rays.end);
+    taken
+}
+
 /// Where a gather ray ends.
 pub(super) struct End {
     pub(super) point: SurfacePoint,
@@ -167,15 +184,60 @@ impl<'a> GatherRays<'a> {
     /// `pass` tells which of the rays are wanted now; light that needs no gather ray comes with a pixel's first bin.
     pub fn pixel(
         &self,
-        [x, y]: [u32; 2],
+        at: [u32; 2],
         pass: impl Into<Pass>,
+        cache: Option<&CacheRecords>,
+        query: impl FnMut(Query),
+        light: impl FnMut(Vec3),
+        counts: &mut RayCounts,
+    ) {
+        let mut all = 0..u64::MAX;
+        self.visit(at, Part { pass: pass.into(), rays: &mut all }, cache, query, light, counts);
+    }
+
+    /// Casts some of the gather rays of one pixel and pass: those with numbers in `rays`, counted from the first that
+    /// [`pixel`](Self::pixel) would cast. Then takes their number off both ends of `rays`, which so goes on at the pixel
+    /// that comes next. No light is asked for.
+    ///
+    /// The eye rays are counted as cast again: it takes all of them to know the numbers.
+    pub fn some_of_pixel(
+        &self,
+        at: [u32; 2],
+        pass: Pass,
+        rays: &mut Range<u64>,
+        query: impl FnMut(Query),
+        counts: &mut RayCounts,
+    ) {
+        let mut now = RayCounts::default();
+        self.visit(at, Part { pass, rays }, None, query, |_| {}, &mut now);
+        *counts += RayCounts { eye: 0, eye_again: now.eye + now.eye_again, seen: 0, ..now };
+    }
+
+    /// Casts the eye rays of a pixel alone: the number of points seen directly, and of those behind specular surfaces.
+    pub(super) fn points_seen(&self, [x, y]: [u32; 2], counts: &mut RayCounts) -> [u64; 2] {
+        let mut found = vec![];
+        counts.eye += self.eye.see(&self.stage, x, y, &mut found, &mut |_| {});
+        counts.seen += found.len() as u64;
+        let behind = found.iter().filter(|leaf| leaf.behind_specular).count();
+        [found.len() - behind, behind].map(|points| points as u64)
+    }
+
+    /// Number of gather rays that a point seen sends into each bin.
+    pub(super) fn rays_by_bin(&self) -> Vec<u64> {
+        self.bins.iter().map(|strata| strata.len() as u64).collect()
+    }
+
+    fn visit(
+        &self,
+        [x, y]: [u32; 2],
+        part: Part<'_>,
         cache: Option<&CacheRecords>,
         mut query: impl FnMut(Query),
         mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
         let pixel = y * self.eye.camera.size()[0] + x;
-        let pass = pass.into();
+        let Part { pass, rays } = part;
         let Pass { leaves, bin } = pass;
         // Light seen by eye belongs to the first of the passes that visit every pixel.
         let first_pass = pass.is_first();
@@ -201,9 +263,18 @@ impl<'a> GatherRays<'a> {
                             self.direct_light(pixel, leaf, &mut light);
                         }
                     }
-                    Method::FinalGather => self.gather(pixel, leaf, bin, &mut query, &mut light, counts),
-                    Method::DirectVisualisation => {
+                    Method::FinalGather => {
                         if bin == 0 {
+                            self.direct_light(pixel, leaf, &mut light);
+                        }
+                        let wanted = take(rays, self.bins[bin as usize].len());
+                        if !wanted.is_empty() {
+                            let strata = self.strata_of(pixel, leaf, bin);
+                            self.gather(pixel, leaf, &strata[wanted], &mut query, &mut light, counts);
+                        }
+                    }
+                    Method::DirectVisualisation => {
+                        if bin == 0 && !take(rays, 1).is_empty() {
                             query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
                         }
                     }
@@ -229,12 +300,28 @@ impl<'a> GatherRays<'a> {
         }
     }
 
-    /// Casts the gather rays of one point seen that belong to a bin.
+    /// The strata of a bin in the order in which they are cast from a point seen.
+    fn strata_of(&self, pixel: u32, leaf: &Leaf, bin: u32) -> Cow<'_, [u32]> {
+        let strata = &self.bins[bin as usize];
+        if self.options.strata == Strata::Raster {
+            return strata.into();
+        }
+        let key = |stratum: &u32| {
+            let number = u64::from(leaf.number);
+            let key = [self.options.seed, Purpose::StrataOrder as u64, pixel.into(), number, (*stratum).into()];
+            Random::new(&key).next_u64()
+        };
+        let mut strata = strata.clone();
+        strata.sort_by_cached_key(key);
+        strata.into()
+    }
+
+    /// Casts the gather rays of one point seen that go through these strata.
     fn gather(
         &self,
         pixel: u32,
         leaf: &Leaf,
-        bin: u32,
+        strata: &[u32],
         query: &mut impl FnMut(Query),
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
@@ -243,19 +330,9 @@ impl<'a> GatherRays<'a> {
         let (point, number) = (&leaf.point, leaf.number);
         let reflection = Reflection::new(self.stage.material(point), point.facing, leaf.view);
         let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
-        if bin == 0 {
-            self.direct_light(pixel, leaf, light);
-            counts.guided += u64::from(guide.is_some());
-        }
-        let mut strata = self.bins[bin as usize].clone();
-        if self.options.strata == Strata::Shuffled {
-            let key = |stratum: &u32| {
-                Random::new(&[seed, Purpose::StrataOrder as u64, pixel.into(), number.into(), (*stratum).into()])
-                    .next_u64()
-            };
-            strata.sort_by_cached_key(key);
-        }
-        for stratum in strata {
+        // Each point has the first stratum once, whatever the order and the bins.
+        counts.guided += u64::from(guide.is_some() && strata.contains(&0));
+        for &stratum in strata {
             counts.gather += 1;
             let sample = number * gathers + stratum;
             let random = &mut Random::new(&[seed, Purpose::GatherRay as u64, u64::from(pixel), u64::from(sample)]);

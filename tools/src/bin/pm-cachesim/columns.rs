@@ -1,7 +1,9 @@
 //! Columns of the results: what each is called, whether the table shows it, and its value.
 
 use super::found::Found;
-use pm_tools::cache::{CacheConfig, Curve, Distribution, Estimate, Row, SampledCurve, TraceCounts, Ways, WorkingSets};
+use pm_tools::cache::{
+    CacheConfig, Counts, Curve, Distribution, Estimate, Row, SampledCurve, TraceCounts, Ways, WorkingSets,
+};
 use pm_tools::report::{Column, Format, Table, Value};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -86,6 +88,8 @@ pub(crate) struct CacheResult {
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
     pub(crate) found: Found,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     /// Names of the regions of the trace.
     pub(crate) regions: Rc<Vec<String>>,
     /// Bytes of queries spilled to memory and read back by the stages before.
@@ -110,10 +114,10 @@ impl CacheResult {
         Some(self.row()?.traffic_bytes().saturating_add(self.query_bytes).saturating_add(self.result_bytes?))
     }
 
-    /// Fetches of a row for all regions whose name in a column is this.
-    fn region_fetches(&self, name: &str) -> impl Fn(&Row) -> u64 {
+    /// Adds up numbers of the regions whose name in a column is this.
+    fn of_regions(&self, name: &str) -> impl Fn(&[u64]) -> u64 + use<> {
         let named: Vec<bool> = self.regions.iter().map(|region| column_name(region) == name).collect();
-        move |row| named.iter().zip(&row.region_fetches).map(|(named, fetches)| u64::from(*named) * fetches).sum()
+        move |numbers| named.iter().zip(numbers).map(|(named, number)| u64::from(*named) * number).sum()
     }
 
     fn sets(&self, of: SetsOf) -> Option<&Distribution> {
@@ -135,25 +139,41 @@ impl CacheResult {
     }
 }
 
+/// How much of a window's count may as well be nothing.
+type Unknown = fn(&CacheResult) -> Box<dyn Fn(&Counts) -> u64>;
+
+/// What does not depend on what is cached.
+const NONE: Unknown = |_| Box::new(|_| 0);
+/// Fetches.
+const FETCHES: Unknown = |_| Box::new(Counts::unknown_fetches);
+/// Bytes of fetches.
+const BYTES: Unknown = |of| {
+    let line = u64::from(of.config().line_bytes());
+    Box::new(move |counts| counts.unknown_fetches() * line)
+};
+
 /// Columns of caches.
 impl Columns<CacheResult> {
     /// A count of the stream, or an estimate of it.
     fn total(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
-        self.number(name, in_table, move |of| of.found.total(count).0)
+        self.number(name, in_table, move |of| of.found.total(count, NONE(of)).0)
     }
 
     /// The same with half the width of its interval behind it.
-    fn total_with_error(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
-        let error = move |of: &CacheResult| of.half_width(of.found.total(count).1);
-        self.total(name, in_table, count).ratio(&format!("{name}_error"), false, error)
+    fn total_with_error(self, name: &str, in_table: bool, count: fn(&Row) -> u64, unknown: Unknown) -> Self {
+        self.number(name, in_table, move |of| of.found.total(count, unknown(of)).0).ratio(
+            &format!("{name}_error"),
+            false,
+            move |of| of.half_width(of.found.total(count, unknown(of)).1),
+        )
     }
 
     /// A count for each query, with half the width of its interval behind it.
-    fn per_query(self, name: &str, in_table: bool, count: fn(&Row) -> u64) -> Self {
-        self.ratio(name, in_table, move |of| of.found.per_query(count).0).ratio(
+    fn per_query(self, name: &str, in_table: bool, count: fn(&Row) -> u64, unknown: Unknown) -> Self {
+        self.ratio(name, in_table, move |of| of.found.per_query(count, unknown(of)).value).ratio(
             &format!("{name}_error"),
             false,
-            move |of| of.half_width(of.found.per_query(count).1),
+            move |of| of.half_width(of.found.per_query(count, unknown(of)).half_width()),
         )
     }
 }
@@ -190,21 +210,27 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
         .total("reads", false, |row| row.records.reads)
         .total("raw_bytes", false, Row::raw_bytes)
         .total("accesses", false, |row| row.accesses)
-        .total_with_error("fetches", !windowed, |row| row.fetches)
-        .total_with_error("bytes_fetched", true, |row| row.bytes_fetched)
-        .total("bytes_written_back", false, |row| row.bytes_written_back)
+        .total_with_error("fetches", !windowed, |row| row.fetches, FETCHES)
+        .total_with_error("bytes_fetched", true, |row| row.bytes_fetched, BYTES)
+        .number("bytes_written_back", false, |of| match of.found.knows_write_backs() {
+            true => of.found.total(|row| row.bytes_written_back, |_| 0).0,
+            false => perhaps(None),
+        })
         .count_perhaps("compulsory", |of| Some(of.row()?.compulsory))
         .count("blocks", false, |of| of.found.blocks())
-        .per_query("reads_per_query", true, |row| row.records.reads)
-        .per_query("accesses_per_query", false, |row| row.accesses)
-        .per_query("fetches_per_query", true, |row| row.fetches);
+        .per_query("reads_per_query", true, |row| row.records.reads, NONE)
+        .per_query("accesses_per_query", false, |row| row.accesses, NONE)
+        .per_query("fetches_per_query", true, |row| row.fetches, FETCHES);
     if windowed {
         columns = columns.in_table().headed("±");
     }
     columns = columns
-        .ratio("fetches_per_block", true, |of| of.found.fetches_per_block().0)
-        .ratio("fetches_per_block_error", false, |of| of.half_width(of.found.fetches_per_block().1))
-        .per_query("bytes_per_query", false, Row::traffic_bytes)
+        .ratio("fetches_per_query_doubt", false, |of| of.half_width(of.found.fetches_per_query().doubt))
+        .ratio("degrees_of_freedom", false, |of| of.found.fetches_per_query().spread.freedom)
+        .ratio("fetches_per_block", true, |of| of.found.fetches_per_block().value)
+        .ratio("fetches_per_block_error", false, |of| of.half_width(of.found.fetches_per_block().half_width()))
+        .ratio("bytes_per_query", false, |of| of.found.bytes_per_query(BYTES(of)).value)
+        .ratio("bytes_per_query_error", false, |of| of.half_width(of.found.bytes_per_query(BYTES(of)).half_width()))
         .number("capacity", false, |of| perhaps(of.row().and_then(Row::capacity)))
         .number("conflict", false, |of| of.row().and_then(Row::conflict).map_or(perhaps(None), Value::Signed))
         .number("page_switches", false, |of| of.found.page_switches())
@@ -231,7 +257,7 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
         .number("result_bytes", false, |of| perhaps(of.result_bytes))
         .number("total_bytes", false, |of| perhaps(of.total_bytes()))
         .count("order_bytes_on_chip", false, |of| of.order_bytes)
-        .count("windows", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows()))
+        .count("windows", windowed, |of| of.found.windows().map_or(0, |windows| windows.counts.len() as u64))
         .count("windows_inexact", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows_inexact()))
         .count("queries_measured", false, |of| of.found.queries_measured())
         .count("queries_simulated", windowed, |of| of.found.queries_simulated())
@@ -239,23 +265,24 @@ pub(crate) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
             Some(windows) => windows.share.unwrap_or(f64::NAN),
             None if of.sample.is_empty() => 1.0,
             None => f64::NAN,
-        })
-        .ratio("degrees_of_freedom", false, |of| of.found.degrees_of_freedom());
+        });
     let regions: BTreeSet<String> =
         results.iter().flat_map(|of| of.regions.iter().map(|name| column_name(name))).collect();
     for region in regions {
         let names = [format!("fetches_{region}"), format!("fetches_{region}_error")];
         // A region called `per_query` would be another column.
         if columns.0.iter().all(|of| !names.contains(&of.column.name)) {
-            let again = region.clone();
-            columns = columns.number(&names[0], false, move |of| of.found.total(of.region_fetches(&region)).0).ratio(
-                &names[1],
-                false,
-                move |of| of.half_width(of.found.total(of.region_fetches(&again)).1),
-            );
+            let total = move |of: &CacheResult| {
+                let sum = of.of_regions(&region);
+                of.found.total(|row| sum(&row.region_fetches), |counts| sum(&counts.unknown))
+            };
+            let again = total.clone();
+            columns = columns
+                .number(&names[0], false, move |of| total(of).0)
+                .ratio(&names[1], false, move |of| of.half_width(again(of).1));
         }
     }
-    columns.table(format, results)
+    columns.text("history", false, |of| of.history.to_string()).table(format, results)
 }
 
 /// One size of a curve: exact, from a sample of the lines, or both.
@@ -265,6 +292,8 @@ pub(crate) struct CurvePoint {
     pub(crate) order: String,
     /// Searches in flight at a time.
     pub(crate) lanes: u16,
+    /// The commands that the trace came by.
+    pub(crate) history: Rc<str>,
     pub(crate) exact: Option<Rc<Curve>>,
     pub(crate) sampled: Option<Rc<SampledCurve>>,
     pub(crate) trace: TraceCounts,
@@ -366,5 +395,5 @@ pub(crate) fn of_curves(format: Format, points: &[CurvePoint]) -> Table {
             |of| of.mark().to_owned(),
         );
     }
-    columns.table(format, points)
+    columns.text("history", false, |of| of.history.to_string()).table(format, points)
 }

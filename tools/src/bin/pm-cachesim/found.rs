@@ -1,7 +1,8 @@
 //! What was found of a cache: exact counts of a whole trace, or estimates from windows.
 
-use pm_tools::cache::{CacheConfig, Row, WindowedRow};
+use pm_tools::cache::{CacheConfig, Counts, Policy, Row, WindowedRow};
 use pm_tools::report::Value;
+use pm_tools::statistics::{Ratio, Spread};
 
 /// Significant digits of estimated counts in the table.
 const DIGITS: u8 = 5;
@@ -37,51 +38,65 @@ impl Found {
     }
 
     /// A count of the whole stream, and half the width of its interval.
-    pub(crate) fn total(&self, count: impl Fn(&Row) -> u64) -> (Value, f64) {
+    pub(crate) fn total(&self, count: impl Fn(&Row) -> u64, unknown: impl Fn(&Counts) -> u64) -> (Value, f64) {
         match self {
             Self::Exact(row) => (Value::Int(count(row)), 0.0),
             Self::Windows(row) => {
-                let total = row.total(|counts| count(&counts.row));
-                (rounded(total.value), total.half_width)
+                let total = row.total(|counts| count(&counts.row), unknown);
+                (rounded(total.value), total.half_width())
             }
         }
     }
 
-    /// A count for each query, and half the width of its interval.
-    pub(crate) fn per_query(&self, count: impl Fn(&Row) -> u64) -> (f64, f64) {
+    /// A count for each query.
+    pub(crate) fn per_query(&self, count: impl Fn(&Row) -> u64, unknown: impl Fn(&Counts) -> u64) -> Ratio {
         match self {
-            Self::Exact(row) => (count(row) as f64 / row.queries as f64, 0.0),
+            Self::Exact(row) => known(count(row) as f64 / row.queries as f64),
+            Self::Windows(row) => row.ratio(|counts| count(&counts.row), unknown, |counts| counts.row.queries),
+        }
+    }
+
+    /// Fetches for each query.
+    pub(crate) fn fetches_per_query(&self) -> Ratio {
+        self.per_query(|row| row.fetches, Counts::unknown_fetches)
+    }
+
+    /// Bytes to and from memory for each query; none where write-backs cannot be told.
+    pub(crate) fn bytes_per_query(&self, unknown: impl Fn(&Counts) -> u64) -> Ratio {
+        let bytes = self.per_query(Row::traffic_bytes, unknown);
+        if self.knows_write_backs() { bytes } else { Ratio { value: f64::NAN, doubt: f64::NAN, ..bytes } }
+    }
+
+    /// Fetches of the whole stream for each block.
+    pub(crate) fn fetches_per_block(&self) -> Ratio {
+        match self {
+            Self::Exact(row) => known(row.fetches_per_block()),
             Self::Windows(row) => {
-                let ratio = row.per_query(|counts| count(&counts.row));
-                (ratio.value, ratio.half_width)
+                let total = row.total(|counts| counts.row.fetches, Counts::unknown_fetches);
+                let (a_block, value) = (1.0 / row.blocks as f64, total.value / row.blocks as f64);
+                Ratio { value, spread: total.spread.scaled(a_block), doubt: total.doubt * a_block, ..total }
             }
         }
     }
 
-    /// Fetches of the whole stream for each block, and half the width of the interval.
-    pub(crate) fn fetches_per_block(&self) -> (f64, f64) {
-        match self {
-            Self::Exact(row) => (row.fetches_per_block(), 0.0),
-            Self::Windows(row) => {
-                let (total, blocks) = (row.total(|counts| counts.row.fetches), row.blocks as f64);
-                (total.value / blocks, total.half_width / blocks)
-            }
-        }
+    /// Whether write-backs can be told: a window does not know which of its lines are dirty from before.
+    pub(crate) fn knows_write_backs(&self) -> bool {
+        self.windows().is_none_or(|row| {
+            row.config.policy() == Policy::None || row.counts.iter().all(|counts| counts.row.bytes_written_back == 0)
+        })
     }
 
     pub(crate) fn page_switches(&self) -> Value {
         match self {
             Self::Exact(row) => row.more.page_switches.map_or(NOTHING, Value::Int),
-            Self::Windows(row) => rounded(row.total(|counts| counts.row.more.page_switches.unwrap_or(0)).value),
+            Self::Windows(row) => rounded(row.total(switches, |_| 0).value),
         }
     }
 
     pub(crate) fn page_switches_per_fetch(&self) -> f64 {
         match self {
             Self::Exact(row) => row.page_switches_per_fetch().unwrap_or(f64::NAN),
-            Self::Windows(row) => {
-                row.ratio(|counts| counts.row.more.page_switches.unwrap_or(0), |counts| counts.row.fetches).value
-            }
+            Self::Windows(row) => row.ratio(switches, |_| 0, |counts| counts.row.fetches).value,
         }
     }
 
@@ -90,7 +105,7 @@ impl Found {
         match self {
             Self::Exact(row) => row.more.working_sets.as_ref().map_or(f64::NAN, |sets| sets.per_search.mean()),
             Self::Windows(row) => {
-                row.ratio(|counts| counts.search_lines.unwrap_or(0), |counts| counts.row.searches).value
+                row.ratio(|counts| counts.search_lines.unwrap_or(0), |_| 0, |counts| counts.row.searches).value
             }
         }
     }
@@ -108,12 +123,16 @@ impl Found {
             Self::Windows(row) => row.queries_simulated,
         }
     }
+}
 
-    /// Degrees of freedom of the interval of fetches per query.
-    pub(crate) fn degrees_of_freedom(&self) -> f64 {
-        self.windows()
-            .map_or(f64::NAN, |row| row.ratio(|counts| counts.row.fetches, |counts| counts.row.queries).spread.freedom)
-    }
+/// Changes of the DRAM page in a window.
+fn switches(counts: &Counts) -> u64 {
+    counts.row.more.page_switches.unwrap_or(0)
+}
+
+/// A number that nothing is estimated of.
+fn known(value: f64) -> Ratio {
+    Ratio { value, weight: 1.0, spread: Spread { variance: 0.0, freedom: f64::NAN }, doubt: 0.0 }
 }
 
 /// No such count.

@@ -4,7 +4,7 @@ use super::columns::{CacheResult, CurvePoint};
 use super::found::Found;
 use super::{Args, asked_wrongly, sizes, traffic};
 use pm_formats::trace::Region;
-use pm_formats::{End, Header};
+use pm_formats::{End, Header, as_commands};
 use pm_tools::cache::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways, WindowedRow};
 use pm_tools::cli::usage;
 use pm_tools::report::Format;
@@ -24,6 +24,8 @@ pub(crate) struct Source {
     order: String,
     /// Which part of the stream it is, in words; empty if it is all.
     sample: String,
+    /// The commands that it came by, on one line as a shell reads them; of a foreign trace nothing is known.
+    history: Rc<str>,
     /// Names of the regions.
     regions: Rc<Vec<String>>,
     query_bytes: u64,
@@ -35,19 +37,16 @@ impl Source {
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
         let sample = header.meaning("sample").unwrap_or_default().to_owned();
-        Self {
-            order: order_of(header),
-            sample,
-            query_bytes,
-            order_bytes,
-            ..Self::foreign(String::new(), &header.regions)
-        }
+        let history = as_commands(&header.history).trim_end().replace('\n', "; ").into();
+        let order = order_of(header);
+        Self { order, sample, history, query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
     }
 
     /// A trace in another format.
     pub(crate) fn foreign(format: String, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
-        Self { order: format, sample: String::new(), regions, query_bytes: 0, order_bytes: 0 }
+        let (sample, history) = (String::new(), "".into());
+        Self { order: format, sample, history, regions, query_bytes: 0, order_bytes: 0 }
     }
 
     /// What was found of a cache with so many searches in flight.
@@ -57,6 +56,7 @@ impl Source {
             sample: self.sample.clone(),
             lanes,
             found,
+            history: Rc::clone(&self.history),
             regions: Rc::clone(&self.regions),
             query_bytes: self.query_bytes,
             order_bytes: self.order_bytes,
@@ -81,7 +81,8 @@ impl Results {
             let (exact, sampled) = (exact.next(), sampled.next());
             let trace = exact.as_ref().map(|curve| curve.trace).or(sampled.as_ref().map(|curve| curve.trace));
             let Some(trace) = trace else { return Ok(()) };
-            let mut point = CurvePoint { order: source.order.clone(), lanes, exact, sampled, trace, lines: 0 };
+            let (order, history) = (source.order.clone(), Rc::clone(&source.history));
+            let mut point = CurvePoint { order, lanes, history, exact, sampled, trace, lines: 0 };
             for lines in curve_sizes(args, &point)? {
                 point.lines = lines;
                 self.points.push(point.clone());
