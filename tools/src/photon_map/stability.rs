@@ -137,10 +137,8 @@ fn building(n: usize) -> String {
         write!(table, "\n{name:20}").unwrap();
         for (_, options) in MAPS {
             let (_, took) = Building::measure(|| Ok::<_, ()>(build(options, &photons, K))).unwrap();
-            let bytes = took.peak_bytes.map_or("-".to_owned(), |peak| (peak / n as u64).to_string());
-            write!(table, "{:>width$}", format!("{:.2} {bytes}", took.seconds)).unwrap();
+            write!(table, "{:>width$.2}", took.seconds).unwrap();
         }
     }
-    table
-        + "\n\nseconds to build a map of so many photons, and the bytes for each at the peak beyond the photons themselves\n"
+    table + "\n\nseconds to build a map of so many photons\n"
 }
