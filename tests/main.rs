@@ -15,6 +15,7 @@ mod invariance;
 mod light;
 mod oracles;
 mod orders;
+mod page;
 mod pictures;
 mod pipes;
 mod precomputed;

@@ -25,9 +25,6 @@ pub(super) fn html(
     command: Option<&str>,
     sheets: &mut Sheets,
 ) -> Result<String, PageError> {
-    if block.tables.is_empty() {
-        return Err(PageError::asked("a chart has at least one of `tables`"));
-    }
     let data = data(block, sheets)?;
     let plot = plot(block, sheets)?;
     let look = |size| Look {
@@ -96,6 +93,8 @@ fn data(block: &ChartBlock, sheets: &mut Sheets) -> Result<Sheet, PageError> {
     let mut all: Option<Sheet> = None;
     for (number_of_table, name) in block.tables.iter().chain(&block.reference).enumerate() {
         let mut sheet = (*sheets.get(name)?).clone();
+        sheet.column(&block.x)?;
+        sheet.column(&block.y)?;
         if number_of_table >= block.tables.len() {
             // A reference need not have the columns that ours are chosen by.
             sheet.keep_what_fits(&block.only);
@@ -113,7 +112,7 @@ fn data(block: &ChartBlock, sheets: &mut Sheets) -> Result<Sheet, PageError> {
             all.keep(&block.only)?;
         }
     }
-    let mut all = all.ok_or_else(|| PageError::asked("a chart has at least one of `tables`"))?;
+    let Some(mut all) = all else { return Err(PageError::asked("a chart has at least one of `tables`")) };
     let (x, y) = (all.column(&block.x)?, all.column(&block.y)?);
     all.rows.retain(|row| !row[x].is_empty() && number(&row[y]).is_some());
     Ok(all)

@@ -67,7 +67,7 @@ pub(super) fn html(
     }
     let mut html = String::new();
     pulldown_cmark::html::push_html(&mut html, events.into_iter());
-    Ok(Text { html, links })
+    Ok(Text { html: with_tables(&html), links })
 }
 
 /// A text that is no Markdown, with its numbers, not yet escaped: for headings and attributes.
@@ -87,6 +87,15 @@ pub(super) fn plain(
         };
     }
     Ok(plain)
+}
+
+/// The tables of Markdown as the page has its own: headings say what they head, and what is wide can be moved.
+fn with_tables(html: &str) -> String {
+    // Text is escaped: these are marks.
+    html.replace("<th>", "<th scope=\"col\">")
+        .replace("<th style", "<th scope=\"col\" style")
+        .replace("<table>", "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Table\"><table>")
+        .replace("</table>", "</table></div>")
 }
 
 /// `#` is a heading below that of a block, which is at level 3.
@@ -183,7 +192,7 @@ mod tests {
         assert_eq!(written("`{{a}}`"), format!("<p><code>{a}</code></p>\n"));
         assert_eq!(written("{{a}}{{a}}"), format!("<p>{a}{a}</p>\n"));
         let table = written("| x | y |\n| --- | --- |\n| {{a}} | 2 |\n");
-        assert!(table.contains(&format!("<td>{a}</td>")), "{table}");
+        assert!(table.contains(&format!("<td>{a}</td>")) && table.contains("<th scope=\"col\">y</th>"), "{table}");
     }
 
     #[test]
