@@ -1,28 +1,22 @@
 //! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
 
 mod buffered;
-mod cells;
 mod charge;
 mod cost;
 mod external;
 mod generative;
 mod hashed;
-mod hilbert;
 mod median_split;
-mod morton;
 mod partition;
 mod snowplow;
 mod sorted;
 
 pub use buffered::Buffered;
-pub use cells::Grid;
 pub use charge::Charge;
 pub use cost::{BURST_BUFFER, COMPACT_RECORD, Record, Store};
 pub use generative::{Generative, Leaves, Pass, Span};
 pub use hashed::Hashed;
-pub use hilbert::{HILBERT_BITS, hilbert_key, hilbert_keys};
 pub use median_split::MedianSplit;
-pub use morton::{morton_key, morton_keys};
 pub use partition::Partition;
 pub use snowplow::Snowplow;
 pub use sorted::{Limits, Sorted};

@@ -5,9 +5,9 @@ use clap::Parser;
 use indicatif::BinaryBytes;
 use pm_formats::{Block, BlockMeta, Header, Photon, Query, RecordReader, RecordWriter, StageReport, Step, Tally};
 use pm_tools::cli::{self, Output, OutputArgs, Progress, Typed, Voice, named, open_input, usage};
+use pm_tools::curve::{Grid, hilbert_keys, morton_keys};
 use pm_tools::order::{
-    Buffered, Charge, Grid, Hashed, Limits, MedianSplit, Partition, Per, Record, Reorder, Snowplow, Sorted, Store,
-    hilbert_keys, morton_keys,
+    Buffered, Charge, Hashed, Limits, MedianSplit, Partition, Per, Record, Reorder, Snowplow, Sorted, Store,
 };
 use pm_tools::random::Random;
 use pm_tools::size::Bytes;

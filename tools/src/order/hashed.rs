@@ -4,9 +4,9 @@
 //! Heidelberger, Müller, Pomeranets, Gross, *Optimized Spatial Hashing for Collision Detection of Deformable Objects*,
 //! VMV 2003.
 
-use super::cells::Grid;
 use super::cost::{Costs, Store};
 use super::{Emit, Per, Reorder};
+use crate::curve::Grid;
 use pm_formats::{BlockMeta, Number, Query};
 use std::collections::VecDeque;
 

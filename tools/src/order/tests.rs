@@ -1,6 +1,7 @@
 //! Is every order a permutation, whatever it is given, and does it hold no more than it says?
 
 use super::*;
+use crate::curve::{Grid, hilbert_keys, morton_keys};
 use crate::random::{Random, mix};
 use bytemuck::Zeroable as _;
 use pm_formats::Bounds;
