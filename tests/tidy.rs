@@ -10,6 +10,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("cache", &["size", "random", "spool", "statistics", "formats"]), // never photon_map: it sees accesses only
     ("chart", &["size"]),
     ("cli", &["formats"]),
+    ("curve", &["formats"]),
     ("film", &[]),
     ("foreign", &["cli", "spool", "formats"]), // never cache: it says what was accessed, not what that costs
     ("gather", &["photon_map", "irradiance", "film", "parallel", "random", "formats"]),
@@ -17,10 +18,10 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("image", &["cli"]),
     ("irradiance", &["hemisphere", "film", "formats"]),
     ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
-    ("order", &["random", "formats"]),
+    ("order", &["curve", "random", "formats"]),
     ("page", &["chart", "size"]),
     ("parallel", &[]),
-    ("photon_map", &["random", "formats"]), // never scene or transport: it is built from photons in a stream
+    ("photon_map", &["curve", "random", "formats"]), // never scene or transport: it is built from photons in a stream
     ("random", &[]),
     ("report", &[]),
     ("scene", &[]),
@@ -28,7 +29,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("size", &[]),
     ("spool", &["formats"]),
     ("statistics", &[]),
-    ("transport", &["scene", "irradiance", "hemisphere", "order", "parallel", "random", "formats"]),
+    ("transport", &["scene", "irradiance", "hemisphere", "curve", "order", "parallel", "random", "formats"]),
     ("view", &["cli", "image", "random", "report", "formats"]),
     ("windows", &["random"]),
 ];

@@ -5,6 +5,7 @@
 pub mod cache;
 pub mod chart;
 pub mod cli;
+pub mod curve;
 pub mod film;
 pub mod foreign;
 pub mod gather;

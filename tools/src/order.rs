@@ -1,69 +1,44 @@
 //! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
 
 mod buffered;
-mod cells;
 mod charge;
 mod cost;
 mod external;
 mod generative;
 mod hashed;
-mod hilbert;
 mod median_split;
-mod morton;
 mod partition;
+mod reordering;
 mod snowplow;
 mod sorted;
 
 pub use buffered::Buffered;
-pub use cells::Grid;
 pub use charge::Charge;
 pub use cost::{BURST_BUFFER, COMPACT_RECORD, Record, Store};
 pub use generative::{Generative, Leaves, Pass, Span};
 pub use hashed::Hashed;
-pub use hilbert::{HILBERT_BITS, hilbert_key, hilbert_keys};
 pub use median_split::MedianSplit;
-pub use morton::{morton_key, morton_keys};
 pub use partition::Partition;
+pub use reordering::{Emit, Outlet, Per, Reordering};
 pub use snowplow::Snowplow;
 pub use sorted::{Limits, Sorted};
 
-use pm_formats::{BlockMeta, Number, Query};
+use pm_formats::{Number, Query};
 
-/// How far an order may look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Per {
-    /// Each batch (tile or scanline) by itself, as it stands in the stream
-    Batch,
-    /// The whole image, which then is one batch
-    Image,
-}
-
-impl Per {
-    /// What is to be held together with queries of this block.
-    const fn batch_of(self, meta: BlockMeta) -> BlockMeta {
-        match self {
-            Self::Batch => BlockMeta { records: 0, ..meta },
-            Self::Image => BlockMeta { batch: 0, warm_up: false, records: 0 },
-        }
-    }
-}
-
-/// Takes what a reordering lets go: the block it belongs to, and its queries.
-pub type Emit<'a> = dyn FnMut(BlockMeta, &[Query]) -> pm_formats::Result<()> + 'a;
-
-/// A deferred order. Every query pushed is emitted exactly once, by the end of `drain` at the latest.
+/// A deferred order of the queries of a batch. Every query pushed leaves exactly once, by the end of `drain` at the latest;
+/// after that the next batch may come.
 pub trait Reorder {
-    /// Takes queries of one block; may emit some that it holds.
+    /// Takes queries; may let some go that it holds.
     ///
     /// # Errors
-    /// Those of `emit`.
-    fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()>;
+    /// Those of `out`, and of temporary files.
+    fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()>;
 
-    /// Emits all that is held.
+    /// Lets go all that it holds.
     ///
     /// # Errors
-    /// Those of `emit`.
-    fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()>;
+    /// Those of `out`, and of temporary files.
+    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()>;
 
     /// What the order cost, for the end block.
     fn measures(&self) -> Vec<(String, Number)>;

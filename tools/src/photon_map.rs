@@ -9,7 +9,6 @@ mod block_hash;
 mod brute_force;
 mod bucket_kd;
 mod building;
-mod curve;
 mod grid;
 mod kd_tree;
 mod kdb_tree;

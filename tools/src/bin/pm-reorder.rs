@@ -5,9 +5,9 @@ use clap::Parser;
 use indicatif::BinaryBytes;
 use pm_formats::{Block, BlockMeta, Header, Photon, Query, RecordReader, RecordWriter, StageReport, Step, Tally};
 use pm_tools::cli::{self, Output, OutputArgs, Progress, Typed, Voice, named, open_input, usage};
+use pm_tools::curve::{Grid, hilbert_keys, morton_keys};
 use pm_tools::order::{
-    Buffered, Charge, Grid, Hashed, Limits, MedianSplit, Partition, Per, Record, Reorder, Snowplow, Sorted, Store,
-    hilbert_keys, morton_keys,
+    Buffered, Charge, Hashed, Limits, MedianSplit, Partition, Per, Record, Reorder, Reordering, Snowplow, Sorted, Store,
 };
 use pm_tools::random::Random;
 use pm_tools::size::Bytes;
@@ -127,7 +127,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let inputs = photons.iter().map(|photons| (photons.name.clone(), photons.history.clone())).collect();
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, seed) });
 
-    let mut order = build(&args, &header, photons)?;
+    let mut order = Reordering::new(args.per, build(&args, &header, photons)?);
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "queries", args.voice.quiet);
     while let Some((meta, records)) = queries.next_block().with_context(|| name.clone())? {
@@ -232,12 +232,12 @@ fn photons(args: &Args) -> anyhow::Result<Option<Photons>> {
 type Keys = Box<dyn Fn(&[Query]) -> Vec<u32>>;
 
 fn build(args: &Args, header: &Header, photons: Option<Photons>) -> anyhow::Result<Box<dyn Reorder>> {
-    let Args { per, seed, .. } = *args;
+    let seed = args.seed;
     let store = Store { bytes: args.storage.0, record: args.record };
     let bounds = header.bounds;
     let hilbert = move |queries: &[Query]| hilbert_keys(&bounds, queries, |query| query.position);
     let sorted = |keys: Keys, charge: Charge, tables: u64| -> Box<dyn Reorder> {
-        Box::new(Sorted::new(per, keys, charge, store, tables, limits(args, header)))
+        Box::new(Sorted::new(keys, charge, store, tables, limits(args, header)))
     };
     let by_cell = |photons: Option<Photons>, charge: fn(u64) -> Charge| {
         let cells = photons.expect("this order has asked for photons").cells;
@@ -261,18 +261,18 @@ fn build(args: &Args, header: &Header, photons: Option<Photons>) -> anyhow::Resu
         }
         Order::Leaf => by_cell(photons, |_| Charge::MergeSort),
         Order::Cells => by_cell(photons, Charge::Cells),
-        Order::Snowplow => Box::new(Snowplow::new(per, hilbert, store)),
+        Order::Snowplow => Box::new(Snowplow::new(hilbert, store)),
         Order::Hashed => {
             // Cells beyond that number along a side are smaller than what coordinates tell apart.
             let grid = args.cell.map(|side| Grid::of_side(&bounds, side, 1 << 24));
             let grid = grid.unwrap_or_else(|| Grid::across(&bounds, HASH_CELLS));
-            Box::new(Hashed::new(per, grid, args.buckets, args.capacity, store))
+            Box::new(Hashed::new(grid, args.buckets, args.capacity, store))
         }
         Order::Buffered => {
             if let Some(Photons { cells, .. }) = photons {
                 let number = few_enough(cells.cells().into(), "--leaf-photons")?;
                 let tables = cells.bytes();
-                Box::new(Buffered::new(per, move |query: &Query| cells.cell(query.position), number, store, tables))
+                Box::new(Buffered::new(move |query: &Query| cells.cell(query.position), number, store, tables))
             } else {
                 let grid = args.cell.map(|side| Grid::of_side(&bounds, side, 1 << 20));
                 let grid = grid.unwrap_or_else(|| Grid::across(&bounds, BUFFER_CELLS));
@@ -282,7 +282,7 @@ fn build(args: &Args, header: &Header, photons: Option<Photons>) -> anyhow::Resu
                     let [x, y, z] = grid.cell(query.position);
                     (z * down + y) * across + x
                 };
-                Box::new(Buffered::new(per, cell, number, store, 0))
+                Box::new(Buffered::new(cell, number, store, 0))
             }
         }
     })

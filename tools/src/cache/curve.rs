@@ -10,7 +10,7 @@ use super::{RecordCounts, lines::LineChunk, stack_distance::StackDistances};
 
 /// How many counted events had each stack distance.
 #[derive(Default)]
-struct Histogram {
+pub(super) struct Histogram {
     at: Vec<u64>,
     /// Those of a line never used before.
     never: u64,
@@ -25,8 +25,20 @@ impl Histogram {
         }
     }
 
+    /// Counts an access, if it counts; `distances` has just told its distance.
+    #[inline]
+    pub(super) fn add(&mut self, distance: Option<u32>, distances: &StackDistances, counted: bool) {
+        match distance {
+            Some(distance) => self.at[distance as usize] += u64::from(counted),
+            None => {
+                self.never += u64::from(counted);
+                self.reserve(distances.touched());
+            }
+        }
+    }
+
     /// By lines of the cache, from none on: the events at a distance of that or more. Ends where it no longer changes.
-    fn at_least(mut self) -> Vec<u64> {
+    pub(super) fn at_least(mut self) -> Vec<u64> {
         let used = self.at.iter().rposition(|&n| n > 0).map_or(0, |last| last + 1);
         self.at.truncate(used);
         self.at.push(self.never);
@@ -74,13 +86,7 @@ impl CurveStack {
     fn pass<const WRITES: bool>(&mut self, chunk: &LineChunk, counted: bool) {
         for (i, &slot) in chunk.slots().iter().enumerate() {
             let distance = self.distances.touch(slot);
-            match distance {
-                Some(distance) => self.accesses.at[distance as usize] += u64::from(counted),
-                None => {
-                    self.accesses.never += u64::from(counted);
-                    self.accesses.reserve(self.distances.touched());
-                }
-            }
+            self.accesses.add(distance, &self.distances, counted);
             if WRITES {
                 let dirt = &mut self.dirt[slot as usize];
                 *dirt = (*dirt).max(distance.unwrap_or(CLEAN));

@@ -11,7 +11,9 @@
 //! the sample itself: it is split into [`PARTS`] samples of their own, by other bits of the hash, and the spread of their
 //! estimates gives Student's 95 % interval.
 
-use super::{curve::TraceCounts, lines::LineChunk, stack_distance::StackDistances};
+use super::curve::{Histogram, TraceCounts};
+use super::{lines::LineChunk, stack_distance::StackDistances};
+use crate::random::Random;
 
 /// The fewest lines that may stand for a cache.
 pub const LEAST_MODEL: f64 = 100.0;
@@ -28,40 +30,23 @@ const NOT_SAMPLED: u32 = u32::MAX;
 /// One sample, or one part of it.
 struct Sample {
     distances: StackDistances,
-    /// Counted accesses by distance.
-    at: Vec<u64>,
-    /// Counted first touches.
-    never: u64,
+    accesses: Histogram,
 }
 
 impl Sample {
     fn new(lines: u64) -> Self {
-        Self { distances: StackDistances::new(lines), at: vec![0; lines as usize], never: 0 }
+        Self { distances: StackDistances::new(lines), accesses: Histogram::default() }
     }
 
     #[inline]
     fn touch(&mut self, line: u32, counted: bool) {
-        match self.distances.touch(line) {
-            Some(distance) => self.at[distance as usize] += u64::from(counted),
-            None => self.never += u64::from(counted),
-        }
+        let distance = self.distances.touch(line);
+        self.accesses.add(distance, &self.distances, counted);
     }
 
     /// By lines held, from none on: the misses.
     fn misses(self) -> Vec<u64> {
-        let mut sum = self.never;
-        let mut misses: Vec<u64> = self
-            .at
-            .into_iter()
-            .rev()
-            .map(|n| {
-                sum += n;
-                sum
-            })
-            .collect();
-        misses.reverse();
-        misses.push(self.never);
-        misses
+        self.accesses.at_least()
     }
 }
 
@@ -88,8 +73,10 @@ impl Shards {
         let mut numbers = vec![NOT_SAMPLED; slots as usize];
         let mut parts = vec![];
         let mut sizes = [0_u32; PARTS];
+        // A line's hash is its number in this sequence, whatever the trace.
+        let mut hashes = Random::new(&[]);
         for slot in 0..slots {
-            let hash = hash(slot);
+            let hash = hashes.next_u64();
             if hash >> 32 < limit {
                 sampled[(slot / 64) as usize] |= 1 << (slot % 64);
                 numbers[slot as usize] = parts.len() as u32;
@@ -130,14 +117,6 @@ impl Shards {
     }
 }
 
-/// Mixes the bits of a line's number (the finaliser of splitmix64, Steele, Lea and Flood, OOPSLA 2014).
-fn hash(line: u64) -> u64 {
-    let z = line.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
 /// What fully associative LRU caches would fetch, as far as a sample of the lines tells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledCurve {
@@ -145,7 +124,7 @@ pub struct SampledCurve {
     pub trace: TraceCounts,
     /// Share of the lines that is sampled.
     pub rate: f64,
-    /// By lines of the sample.
+    /// By lines of the sample; those beyond the end are as the last.
     misses: Vec<u64>,
     parts: Vec<Vec<u64>>,
 }

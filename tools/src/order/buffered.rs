@@ -6,8 +6,8 @@
 //! wanting.
 
 use super::cost::{Costs, Store};
-use super::{Emit, Per, Reorder};
-use pm_formats::{BlockMeta, Number, Query};
+use super::{Outlet, Reorder};
+use pm_formats::{Number, Query};
 use std::collections::VecDeque;
 
 /// Bytes of a cell's first and last query and their number, on chip.
@@ -23,26 +23,23 @@ const RECENT_SHARE: usize = 2;
 /// to be fetched of the map: the same for all cells, but half of it for those that left last and their neighbours.
 pub struct Buffered<C> {
     cell: C,
-    per: Per,
     buffers: Vec<VecDeque<Query>>,
     recent: VecDeque<usize>,
     held: u64,
     room: u64,
-    meta: Option<BlockMeta>,
     costs: Costs,
-    out: Vec<Query>,
 }
 
 impl<C: Fn(&Query) -> u32> Buffered<C> {
     /// Buffers for cells that `cell` finds, below `cells`. Their table and the links are part of the store; `tables`
     /// are bytes besides.
-    pub fn new(per: Per, cell: C, cells: u32, store: Store, tables: u64) -> Self {
+    pub fn new(cell: C, cells: u32, store: Store, tables: u64) -> Self {
         let mut costs = Costs::new(store);
         let table = u64::from(cells) * CELL_BYTES;
         let room = (store.bytes.saturating_sub(table) / (store.record.bytes() + LINK_BYTES)).max(1);
         costs.tables(table + room * LINK_BYTES + tables);
         let buffers = vec![VecDeque::new(); cells.max(1) as usize];
-        Self { cell, per, buffers, recent: VecDeque::new(), held: 0, room, meta: None, costs, out: vec![] }
+        Self { cell, buffers, recent: VecDeque::new(), held: 0, room, costs }
     }
 
     /// The buffer that leaves next.
@@ -54,30 +51,26 @@ impl<C: Fn(&Query) -> u32> Buffered<C> {
         (0..self.buffers.len()).rev().max_by_key(|&cell| score(cell)).expect("there is a cell")
     }
 
-    fn empty_best(&mut self) {
+    fn empty_best(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         let best = self.best();
         self.held -= self.buffers[best].len() as u64;
-        self.buffers[best].iter().for_each(|_| self.costs.release(true));
-        self.out.extend(self.buffers[best].drain(..));
+        for query in self.buffers[best].drain(..) {
+            self.costs.release(true);
+            out.leave(query)?;
+        }
         self.recent.push_back(best);
         if self.recent.len() > RECENT {
             self.recent.pop_front();
         }
+        Ok(())
     }
 }
 
 impl<C: Fn(&Query) -> u32> Reorder for Buffered<C> {
-    fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let meta = self.per.batch_of(meta);
-        if self.meta.is_some_and(|held| held != meta) {
-            self.drain(emit)?;
-        }
-        self.meta = Some(meta);
+    fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         for &query in queries {
             if self.held == self.room {
-                self.empty_best();
-                emit(meta, &self.out)?;
-                self.out.clear();
+                self.empty_best(out)?;
             }
             self.costs.admit();
             self.held += 1;
@@ -86,12 +79,9 @@ impl<C: Fn(&Query) -> u32> Reorder for Buffered<C> {
         Ok(())
     }
 
-    fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let Some(meta) = self.meta.take() else { return Ok(()) };
+    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         while self.held > 0 {
-            self.empty_best();
-            emit(meta, &self.out)?;
-            self.out.clear();
+            self.empty_best(out)?;
         }
         Ok(())
     }

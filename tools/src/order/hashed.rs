@@ -4,10 +4,10 @@
 //! Heidelberger, Müller, Pomeranets, Gross, *Optimized Spatial Hashing for Collision Detection of Deformable Objects*,
 //! VMV 2003.
 
-use super::cells::Grid;
 use super::cost::{Costs, Store};
-use super::{Emit, Per, Reorder};
-use pm_formats::{BlockMeta, Number, Query};
+use super::{Outlet, Reorder};
+use crate::curve::Grid;
+use pm_formats::{Number, Query};
 use std::collections::VecDeque;
 
 /// Bytes of a bucket's place and number of queries, on chip.
@@ -17,46 +17,40 @@ const BUCKET_BYTES: u64 = 8;
 /// room; when it is empty, the fullest becomes the current one. So the window is as full as it can be.
 pub struct Hashed {
     grid: Grid,
-    per: Per,
     capacity: usize,
     /// Queries, and whether they are on chip.
     buckets: Vec<VecDeque<(Query, bool)>>,
     current: Option<usize>,
-    meta: Option<BlockMeta>,
     costs: Costs,
-    out: Vec<Query>,
 }
 
 impl Hashed {
     /// `buckets` buckets for at most `capacity` queries each.
     #[must_use]
-    pub fn new(per: Per, grid: Grid, buckets: u32, capacity: u32, store: Store) -> Self {
+    pub fn new(grid: Grid, buckets: u32, capacity: u32, store: Store) -> Self {
         let mut costs = Costs::new(store);
         costs.tables(u64::from(buckets) * BUCKET_BYTES);
         Self {
             grid,
-            per,
             capacity: capacity.max(1) as usize,
             buckets: vec![VecDeque::new(); buckets.max(1) as usize],
             current: None,
-            meta: None,
             costs,
-            out: vec![],
         }
     }
 
-    /// One query leaves: from the current bucket, or from the fullest if that is empty.
-    fn pop(&mut self) -> bool {
+    /// One query leaves, if there is one: from the current bucket, or from the fullest if that is empty.
+    fn pop(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<bool> {
         let current = self.current.filter(|&current| !self.buckets[current].is_empty()).unwrap_or_else(|| {
             // Of equally full ones the first.
             let fullest = (0..self.buckets.len()).rev().max_by_key(|&bucket| self.buckets[bucket].len());
             fullest.expect("there is a bucket")
         });
         self.current = Some(current);
-        let Some((query, on_chip)) = self.buckets[current].pop_front() else { return false };
+        let Some((query, on_chip)) = self.buckets[current].pop_front() else { return Ok(false) };
         self.costs.release(on_chip);
-        self.out.push(query);
-        true
+        out.leave(query)?;
+        Ok(true)
     }
 }
 
@@ -67,30 +61,20 @@ fn bucket([x, y, z]: [u32; 3], buckets: usize) -> usize {
 }
 
 impl Reorder for Hashed {
-    fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let meta = self.per.batch_of(meta);
-        if self.meta.is_some_and(|held| held != meta) {
-            self.drain(emit)?;
-        }
-        self.meta = Some(meta);
+    fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         for &query in queries {
             let bucket = bucket(self.grid.cell(query.position), self.buckets.len());
             while self.buckets[bucket].len() == self.capacity {
-                self.pop();
+                self.pop(out)?;
             }
             let on_chip = self.costs.admit();
             self.buckets[bucket].push_back((query, on_chip));
         }
-        emit(meta, &self.out)?;
-        self.out.clear();
         Ok(())
     }
 
-    fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let Some(meta) = self.meta.take() else { return Ok(()) };
-        while self.pop() {}
-        emit(meta, &self.out)?;
-        self.out.clear();
+    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
+        while self.pop(out)? {}
         Ok(())
     }
 
@@ -102,19 +86,20 @@ impl Reorder for Hashed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::order::Record;
+    use crate::order::{Per, Record, Reordering};
     use bytemuck::Zeroable as _;
-    use pm_formats::Bounds;
+    use pm_formats::{BlockMeta, Bounds};
 
     /// Four cells in a row, which the hash puts into four of eight buckets.
-    fn order(capacity: u32) -> Hashed {
+    fn order(capacity: u32) -> Reordering {
         let grid = Grid::across(&Bounds { min: [0.0; 3], max: [4.0, 1.0, 1.0] }, 4);
         let of = |x: u32| bucket([x, 0, 0], 8);
         assert!((0..4).all(|x| (0..x).all(|y| of(x) != of(y))));
-        Hashed::new(Per::Image, grid, 8, capacity, Store { bytes: 1 << 20, record: Record::Full })
+        let store = Store { bytes: 1 << 20, record: Record::Full };
+        Reordering::new(Per::Image, Box::new(Hashed::new(grid, 8, capacity, store)))
     }
 
-    fn pass(order: &mut Hashed, cells: &[u8]) -> Vec<u32> {
+    fn pass(order: &mut Reordering, cells: &[u8]) -> Vec<u32> {
         let queries: Vec<Query> = (0..)
             .zip(cells)
             .map(|(pixel, &cell)| Query { position: [f32::from(cell) + 0.5, 0.5, 0.5], pixel, ..Query::zeroed() })

@@ -5,8 +5,8 @@
 //! queries as the store holds, where sorting one store's worth after the other goes through it for each.
 
 use super::cost::{Costs, Store};
-use super::{Emit, Per, Reorder};
-use pm_formats::{BlockMeta, Number, Query};
+use super::{Outlet, Reorder};
+use pm_formats::{Number, Query};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -16,7 +16,6 @@ type Waiting = BinaryHeap<Reverse<(u32, u64, u32)>>;
 /// An order by 32-bit keys with a store of bounded size.
 pub struct Snowplow<K> {
     key: K,
-    per: Per,
     /// For the round under way, and for the next.
     rounds: [Waiting; 2],
     /// Key of the query that left last.
@@ -24,39 +23,35 @@ pub struct Snowplow<K> {
     held: Vec<Query>,
     free: Vec<u32>,
     came: u64,
-    meta: Option<BlockMeta>,
     costs: Costs,
-    out: Vec<Query>,
 }
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Snowplow<K> {
     /// An order whose keys `key` computes, for many queries at once.
-    pub fn new(per: Per, key: K, store: Store) -> Self {
+    pub fn new(key: K, store: Store) -> Self {
         Self {
             key,
-            per,
             rounds: [BinaryHeap::new(), BinaryHeap::new()],
             at: 0,
             held: vec![],
             free: vec![],
             came: 0,
-            meta: None,
             costs: Costs::new(store),
-            out: vec![],
         }
     }
 
-    fn pop(&mut self) -> bool {
+    /// The next query on the curve leaves, if there is one.
+    fn pop(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<bool> {
         if self.rounds[0].is_empty() {
             self.rounds.swap(0, 1);
             self.at = 0;
         }
-        let Some(Reverse((key, _, place))) = self.rounds[0].pop() else { return false };
+        let Some(Reverse((key, _, place))) = self.rounds[0].pop() else { return Ok(false) };
         self.at = key;
         self.costs.release(true);
-        self.out.push(self.held[place as usize]);
         self.free.push(place);
-        true
+        out.leave(self.held[place as usize])?;
+        Ok(true)
     }
 
     fn hold(&mut self, key: u32, query: Query) {
@@ -72,34 +67,18 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Snowplow<K> {
 }
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Snowplow<K> {
-    fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let meta = self.per.batch_of(meta);
-        if self.meta.is_some_and(|held| held != meta) {
-            self.drain(emit)?;
-        }
-        self.meta = Some(meta);
+    fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         for (key, &query) in (self.key)(queries).into_iter().zip(queries) {
             if (self.held.len() - self.free.len()) as u64 == self.costs.store().room() {
-                self.pop();
+                self.pop(out)?;
             }
             self.hold(key, query);
         }
-        emit(meta, &self.out)?;
-        self.out.clear();
         Ok(())
     }
 
-    fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let Some(meta) = self.meta.take() else { return Ok(()) };
-        while self.pop() {
-            // What is let go at the end may be all of a large store.
-            if self.out.len() == pm_formats::BLOCK_RECORDS {
-                emit(meta, &self.out)?;
-                self.out.clear();
-            }
-        }
-        emit(meta, &self.out)?;
-        self.out.clear();
+    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
+        while self.pop(out)? {}
         Ok(())
     }
 
@@ -111,9 +90,10 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Snowplow<K> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::order::Record;
+    use crate::order::{Per, Record, Reordering};
     use crate::random::Random;
     use bytemuck::Zeroable as _;
+    use pm_formats::BlockMeta;
 
     #[test]
     fn runs_are_twice_as_long_as_the_store() {
@@ -121,7 +101,7 @@ mod tests {
         let room = 500;
         let store = Store { bytes: room * 44, record: Record::Full };
         let keys = |queries: &[Query]| queries.iter().map(|query| query.sample).collect();
-        let mut order = Snowplow::new(Per::Image, keys, store);
+        let mut order = Reordering::new(Per::Image, Box::new(Snowplow::new(keys, store)));
         let mut random = Random::new(&[5]);
         let queries: Vec<Query> =
             (0..100_000).map(|_| Query { sample: random.next_u64() as u32, ..Query::zeroed() }).collect();

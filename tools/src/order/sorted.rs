@@ -3,8 +3,8 @@
 use super::charge::Charge;
 use super::cost::{Costs, Store};
 use super::external::Runs;
-use super::{Emit, Per, Reorder};
-use pm_formats::{BLOCK_RECORDS, BlockMeta, Number, Query};
+use super::{Outlet, Reorder};
+use pm_formats::{Number, Query};
 use std::path::PathBuf;
 
 /// Memory of this machine that an order may use, and where it goes beyond.
@@ -23,12 +23,10 @@ const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u32>() + size_of::<u6
 /// Sorts queries by a 32-bit key; equal keys keep the order in which they came.
 pub struct Sorted<K> {
     key: K,
-    per: Per,
     charge: Charge,
     costs: Costs,
     limits: Limits,
     announced: bool,
-    meta: Option<BlockMeta>,
     held: Vec<Query>,
     runs: Runs,
     /// Queries of the batch in hand, in memory and on disk.
@@ -37,11 +35,11 @@ pub struct Sorted<K> {
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
     /// An order whose keys `key` computes, for many queries at once; `tables` are the bytes that this takes on chip.
-    pub fn new(per: Per, key: K, charge: Charge, store: Store, tables: u64, limits: Limits) -> Self {
+    pub fn new(key: K, charge: Charge, store: Store, tables: u64, limits: Limits) -> Self {
         let mut costs = Costs::new(store);
         costs.tables(tables);
         let runs = Runs::new(limits.folder.clone(), limits.memory);
-        Self { key, per, charge, costs, limits, announced: false, meta: None, held: vec![], runs, queries: 0 }
+        Self { key, charge, costs, limits, announced: false, held: vec![], runs, queries: 0 }
     }
 
     /// What is held in memory, sorted: keys, and places among the held.
@@ -69,12 +67,7 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
 }
 
 impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
-    fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let meta = self.per.batch_of(meta);
-        if self.meta.is_some_and(|held| held != meta) {
-            self.drain(emit)?;
-        }
-        self.meta = Some(meta);
+    fn push(&mut self, queries: &[Query], _: &mut Outlet<'_>) -> pm_formats::Result<()> {
         self.queries += queries.len() as u64;
         let most = (self.limits.memory / BYTES_A_QUERY).clamp(1, 1 << 32) as usize;
         let mut rest = queries;
@@ -89,20 +82,14 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
         Ok(())
     }
 
-    fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
-        let Some(meta) = self.meta.take() else { return Ok(()) };
+    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         let n = std::mem::take(&mut self.queries);
-        let mut out = Vec::with_capacity(BLOCK_RECORDS);
         if self.runs.is_empty() {
             let places = self.sort_held();
             self.charge.all_came(n, &self.costs);
-            for chunk in places.chunks(BLOCK_RECORDS) {
-                out.clear();
-                for &place in chunk {
-                    self.charge.left((place >> 32) as u32);
-                    out.push(self.held[(place & 0xffff_ffff) as usize]);
-                }
-                emit(meta, &out)?;
+            for place in places {
+                self.charge.left((place >> 32) as u32);
+                out.leave(self.held[(place & 0xffff_ffff) as usize])?;
             }
             self.held.clear();
         } else {
@@ -113,14 +100,8 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
             let charge = &mut self.charge;
             self.runs.drain(|key, query| {
                 charge.left(key);
-                out.push(query);
-                if out.len() == BLOCK_RECORDS {
-                    emit(meta, &out)?;
-                    out.clear();
-                }
-                Ok(())
+                out.leave(query)
             })?;
-            emit(meta, &out)?;
         }
         self.charge.all_left(n, &mut self.costs);
         Ok(())

@@ -4,12 +4,12 @@
 //! Ma, McCool, *Low Latency Photon Mapping Using Block Hashing*, Graphics Hardware 2002. What is not known of their
 //! heuristics is chosen here: how thresholds follow from the number of photons, and what becomes of orphans.
 
-use super::curve::place_on_curve;
 use super::leaves::{Leaves, Point};
 use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, extent};
+use crate::curve::fine_hilbert_key;
 use crate::random::Random;
-use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::{Bounds, Photon};
 
 /// Number of the region that holds the buckets.
 const BUCKETS: u16 = 0;
@@ -120,8 +120,9 @@ impl BlockHash {
         }
 
         let mut points = Point::all(photons);
-        let bounds = extent(points.iter().map(|point| point.position));
-        points.sort_by_cached_key(|point| (place_on_curve(point.position, &bounds), point.id));
+        let (min, max) = extent(points.iter().map(|point| point.position));
+        let bounds = Bounds { min, max };
+        points.sort_by_cached_key(|point| (fine_hilbert_key(&bounds, point.position), point.id));
         let mut blocks = Leaves::new(n.div_ceil(capacity), capacity);
         points.chunks(capacity).enumerate().for_each(|(block, points)| blocks.fill(block, points));
 

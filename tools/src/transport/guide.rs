@@ -9,8 +9,8 @@
 use super::reflection::spreads;
 use super::sampling::cosine_direction;
 use super::surface::Stage;
+use crate::curve::{HILBERT_BITS, hilbert_keys};
 use crate::hemisphere::frame;
-use crate::order::{HILBERT_BITS, hilbert_keys};
 use crate::scene::MaterialKind;
 use glam::Vec3;
 use pm_formats::{Bounds, Photon};

@@ -129,11 +129,17 @@ fn next_use(accesses: &[LineAccess], now: usize, line: u64) -> usize {
 
 /// The oracle for one cache.
 pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]) -> Cost {
+    naive_misses(config, regions, accesses).0
+}
+
+/// The same, and region and line of each fetch in order, those of the warm-up too.
+fn naive_misses(config: CacheConfig, regions: usize, accesses: &[LineAccess]) -> (Cost, Vec<(u16, u64)>) {
     let sets = config.sets();
     let ways = (config.lines() / sets) as usize;
     let mut caches: BTreeMap<u64, NaiveSet> = BTreeMap::new();
     let mut touched = BTreeSet::new();
     let mut cost = Cost { fetches: vec![0; regions], ..Cost::default() };
+    let mut misses = vec![];
     let seed = if let Policy::Random { seed } = config.policy() { seed } else { 0 };
     let mut numbers = random::Random::new(&[seed]);
     let bypass = config.policy() == Policy::MinBypass;
@@ -153,6 +159,7 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
         let way = if let Some(way) = cache.places.iter().position(|held| held.line == line) {
             way
         } else {
+            misses.push((region as u16, line));
             cost.fetches[region] += u64::from(counted);
             cost.compulsory += u64::from(counted && first);
             let new = Held { line, dirty: false, came: now, used: now, marked: true };
@@ -196,7 +203,7 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
     }
     let left = caches.values().flat_map(|cache| &cache.places).filter(|held| held.dirty).count();
     cost.write_backs += left as u64 + u64::from(at_hand.is_some_and(|(_, dirty)| dirty));
-    cost
+    (cost, misses)
 }
 
 /// A cache of any kind but none.
@@ -228,6 +235,33 @@ fn every_policy_counts_as_its_plainest_cache_does() {
             assert_eq!((row.config, row.fetches), (config, Cost::of(row).total()));
         }
     }
+}
+
+#[test]
+fn every_policy_tells_which_lines_it_fetches_and_when() {
+    let mut random = Random(16);
+    let mut told = 0;
+    for case in 0..400 {
+        let regions = random_regions(&mut random);
+        let events = random_events(&mut random, &regions);
+        for policy in POLICIES {
+            let config = random_cache(&mut random, policy);
+            // A second cache of the same lines: under LRU both are answered by one stack.
+            let beside = CacheConfig::lru(8 * u64::from(config.line_bytes()), Ways::Full, config.line_bytes()).unwrap();
+            let chunk = random.pick(&[1, 2, 5, 60, 4096]);
+            let measures = Measures::default();
+            let mut simulation = Simulation::with_chunk(&regions, &[config, beside], &measures, chunk).unwrap();
+            simulation.keep_fetched();
+            replay(&events, &mut simulation);
+            let mut fetched = vec![];
+            simulation.take_fetched(&mut fetched);
+            let accesses = line_accesses(&regions, config.line_bytes().into(), &events);
+            let (_, expected) = naive_misses(config, regions.len(), &accesses);
+            assert_eq!(fetched, expected, "case {case}, {config}, chunk {chunk}");
+            told += fetched.len();
+        }
+    }
+    assert!(told > 100_000, "{told} fetches are no test");
 }
 
 #[test]

@@ -2,8 +2,7 @@
 //!
 //! Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, IBM, 1966.
 
-use super::cells::Grid;
-use super::hilbert::{HILBERT_BITS, spread};
+use super::{Grid, HILBERT_BITS, spread};
 use pm_formats::Bounds;
 
 /// The keys of points within `bounds`, of the same 1024 cells a side as Hilbert's.

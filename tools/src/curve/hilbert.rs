@@ -2,10 +2,14 @@
 //!
 //! Skilling, *Programming the Hilbert curve*, AIP Conference Proceedings 707, 2004: coordinates to transposed index.
 
+use super::spread;
 use pm_formats::Bounds;
 
 /// Bits of each coordinate: cells of 1/1024 of the scene, finer than what a cache line of photons covers.
 pub const HILBERT_BITS: u32 = 10;
+
+/// Bits of each coordinate where few points may share a cell; as many as three of them fit into 64.
+pub const FINE_BITS: u32 = 21;
 
 /// Points that are keyed together: plain loops over this many are what compilers turn into vector code.
 const LANES: usize = 16;
@@ -38,20 +42,33 @@ pub fn hilbert_keys<T>(bounds: &Bounds, points: &[T], position: impl Fn(&T) -> [
     keys
 }
 
-/// The key of one cell on the curve of `bits` (at most 10) bits a coordinate.
+/// The key of a point within `bounds` on the curve of [`FINE_BITS`] bits a coordinate, for sorting by. The cells are cubes
+/// as in [`hilbert_keys`], 2^21 along the longest side; points outside belong to the nearest cell.
 #[must_use]
-pub fn hilbert_key(cell: [u32; 3], bits: u32) -> u32 {
-    let mut lanes = [[0; LANES]; 3];
-    for axis in 0..3 {
-        lanes[axis][0] = cell[axis];
-    }
-    let transposed = transpose(lanes, bits);
-    spread(transposed[0][0]) << 2 | spread(transposed[1][0]) << 1 | spread(transposed[2][0])
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates at 0, and is below 2^21")]
+pub fn fine_hilbert_key(bounds: &Bounds, point: [f32; 3]) -> u64 {
+    // In double precision: a side of a cell is less than what single precision tells apart.
+    let side = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
+    let longest = (0..3).map(side).fold(0.0, f64::max);
+    let cells = f64::from(1u32 << FINE_BITS);
+    let scale = if longest > 0.0 { cells / longest } else { 0.0 };
+    let cell_of =
+        |axis: usize| ((f64::from(point[axis]) - f64::from(bounds.min[axis])) * scale).min(cells - 1.0) as u32;
+    hilbert_key([0, 1, 2].map(cell_of), FINE_BITS)
 }
 
-/// Skilling's `AxestoTranspose` on `LANES` points at once, without branches.
+/// The key of one cell on the curve of `bits` (at most 21) bits a coordinate.
+#[must_use]
+pub fn hilbert_key(cell: [u32; 3], bits: u32) -> u64 {
+    let transposed = transpose(cell.map(|coordinate| [coordinate]), bits);
+    let next_bits =
+        |key: u64, bit: u32| transposed.iter().fold(key, |key, [axis]| key << 1 | u64::from(axis >> bit & 1));
+    (0..bits).rev().fold(0, next_bits)
+}
+
+/// Skilling's `AxestoTranspose` on several points at once, without branches.
 #[expect(clippy::needless_range_loop, reason = "two coordinates of a lane are changed together")]
-fn transpose(mut x: [[u32; LANES]; 3], bits: u32) -> [[u32; LANES]; 3] {
+fn transpose<const LANES: usize>(mut x: [[u32; LANES]; 3], bits: u32) -> [[u32; LANES]; 3] {
     // All ones if the bit is set.
     let mask = |value: u32, bit: u32| ((value >> bit) & 1).wrapping_neg();
     for bit in (1..bits).rev() {
@@ -83,18 +100,10 @@ fn transpose(mut x: [[u32; LANES]; 3], bits: u32) -> [[u32; LANES]; 3] {
     x
 }
 
-/// Ten bits, three places apart.
-pub(super) const fn spread(bits: u32) -> u32 {
-    let mut x = bits & 0x3ff;
-    x = (x | x << 16) & 0x0300_00ff;
-    x = (x | x << 8) & 0x0300_f00f;
-    x = (x | x << 4) & 0x030c_30c3;
-    (x | x << 2) & 0x0924_9249
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     #[test]
     fn known_keys() {
@@ -141,7 +150,7 @@ mod tests {
         let keys = hilbert_keys(&bounds, &points, |&p| p);
         for (p, key) in points.iter().zip(keys) {
             let cell = [0, 1, 2].map(|axis| ((p[axis] - bounds.min[axis]) * 512.0) as u32);
-            assert_eq!(key, hilbert_key(cell, HILBERT_BITS), "{p:?}");
+            assert_eq!(u64::from(key), hilbert_key(cell, HILBERT_BITS), "{p:?}");
         }
         // Flat, inverted, infinitely large and tiny bounds; points outside.
         for bounds in [
@@ -152,6 +161,36 @@ mod tests {
         ] {
             let points = [[0.0; 3], [1e30; 3], [-1e30; 3], [f32::MAX; 3]];
             assert!(hilbert_keys(&bounds, &points, |&p| p).iter().all(|&key| key < 1 << 30));
+            assert!(points.iter().all(|&point| fine_hilbert_key(&bounds, point) < 1 << 63));
         }
+    }
+
+    #[test]
+    fn the_fine_curve_goes_through_the_cells_of_coarser_ones_in_their_order() {
+        // A curve of fewer bits is the same curve seen from afar.
+        let mut random = Random::new(&[3]);
+        for _ in 0..1000 {
+            let cell = [(); 3].map(|()| (random.next_u64() >> 43) as u32);
+            let key = hilbert_key(cell, FINE_BITS);
+            for coarser in 1..FINE_BITS {
+                let seen = hilbert_key(cell.map(|x| x >> coarser), FINE_BITS - coarser);
+                assert_eq!(key >> (3 * coarser), seen, "{cell:?} {coarser}");
+            }
+        }
+    }
+
+    #[test]
+    fn fine_keys_are_those_of_cells() {
+        let bounds = Bounds { min: [-1.0, 0.0, 2.0], max: [1.0, 1.0, 3.0] };
+        let side = 2.0 / f64::from(1 << FINE_BITS);
+        let mut random = Random::new(&[4]);
+        for _ in 0..1000 {
+            let point = [0, 1, 2].map(|axis| bounds.min[axis] + random.unit() * (bounds.max[axis] - bounds.min[axis]));
+            let cell = [0, 1, 2].map(|axis| (f64::from(point[axis] - bounds.min[axis]) / side) as u32);
+            assert_eq!(fine_hilbert_key(&bounds, point), hilbert_key(cell, FINE_BITS));
+        }
+        let last = hilbert_key([(1 << FINE_BITS) - 1; 3], FINE_BITS);
+        let cube = Bounds { min: [0.0; 3], max: [1.0; 3] };
+        assert_eq!([fine_hilbert_key(&cube, [1.0; 3]), fine_hilbert_key(&cube, [9.0; 3])], [last; 2]);
     }
 }
