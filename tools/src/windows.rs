@@ -77,7 +77,7 @@ pub fn cell_of(cell: u64, length: u64, records: u64) -> Range<u64> {
 /// A number below `cells` that belongs to the stratum.
 fn chosen(seed: u64, stratum: u64, cells: u64) -> u64 {
     // The high half of the product: even but for one part in 2^64 / cells.
-    (u128::from(Random::new(&[seed, stratum]).next_u64()) * u128::from(cells) >> 64) as u64
+    ((u128::from(Random::new(&[seed, stratum]).next_u64()) * u128::from(cells)) >> 64) as u64
 }
 
 #[cfg(test)]

@@ -73,7 +73,10 @@ struct Args {
     #[arg(long, value_name = "MIN,MAX", default_value = "3,20", value_parser = spacing, hide_short_help = true)]
     spacing: [f32; 2],
     /// Shadow rays for each point seen, for the direct light
-    #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(
+        long, value_name = "N", default_value = "16", hide_short_help = true,
+        value_parser = clap::value_parser!(u32).range(1..=1 << 20)
+    )]
     light_samples: u32,
     #[command(flatten)]
     part: PartArgs,
@@ -100,6 +103,7 @@ const EXAMPLES: &str = "\
 Examples:
   pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
   pm-queries --size 512x512 --order tiled --tile 8 -t 2 -o tiled.pmq
+  pm-queries --size 512x512 --only-tiles 800 --window 250 | pm-gather | pm-cachesim
   pm-queries room.obj --eye 0,1.6,4 --look-at 0,1,0 --base direct.exr | pm-gather --base direct.exr --image room.exr --no-trace";
 
 /// What is short for a gather ray.

@@ -15,13 +15,13 @@ use std::process::ExitCode;
 
 /// Keep a share of the gather queries: windows of consecutive ones, whole batches, or single ones.
 ///
-/// Take the sample after reordering. --every keeps one window in each so many queries, from which pm-cachesim estimates the
-/// whole with an interval: each window is a batch of its own, simulated by itself and begun with an empty cache, which its
-/// warm-up fills. --batches keeps one of every N batches (scanlines, tiles) in a row. Where in each stratum the seed
-/// decides, so that no step falls in with the width of the picture. Orders of the whole image are one batch, and their
-/// working set is the picture's: thin them by --queries. The header tells the share (--every) and so does the end block;
-/// what the stages before measured is of the whole stream. Tables of cached irradiance beside the queries are passed on
-/// whole. `pm-queries --only-tiles` takes such samples before any ray is cast.
+/// Take the sample after reordering. --every keeps one window in each so many queries, for pm-cachesim to estimate the
+/// whole from: a window is a batch of its own, simulated by itself, and begins with an empty cache, which its warm-up
+/// fills. --batches keeps one of every N batches (scanlines, tiles) in a row. Which one the seed decides, so that no step
+/// falls in with the width of the picture. Orders of the whole image are one batch, and their working set is the
+/// picture's: thin them by --queries. The end block tells the share; what the stages before measured is of the whole
+/// stream. Tables of cached irradiance beside the queries are passed on whole. `pm-queries --only-tiles` takes such
+/// samples before rays are cast.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("what").required(true).args(["every", "batches", "queries"]))]
 struct Args {
@@ -103,9 +103,8 @@ impl Sample {
                     all.map(|all| all.div_ceil(every).saturating_mul(window + u64::from(warm_up)));
                 header.set_meaning("sample", format!("windows of {window} queries after {warm_up}, 1 in {every}"));
                 header.set_meaning("sample of", "queries");
-                // How long the stream is shows at its end only.
-                let most = all.map_or("unknown".into(), |all| all.div_ceil(every).to_string());
-                header.set_meaning("sample windows", most);
+                // How long the stream is, and with it their number, shows at its end only.
+                header.set_meaning("sample windows", 0);
                 header.set_meaning("sample share", window as f64 / every as f64);
             }
             Self::Batches(OneOf { one_of, .. }) => {
@@ -194,7 +193,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                 ));
             }
             report = report
-                .with("windows", Number::Count(cutter.windows))
+                .with("windows", Number::Count(all.div_ceil(args.every.unwrap_or(1))))
                 .with("queries_of_warm_up", Number::Count(cutter.warm_ups));
         }
         Sample::Queries(_) => {}

@@ -14,15 +14,14 @@ pub(crate) struct Cutter {
     /// Number of queries that came.
     came: u64,
     stratum: u64,
-    /// Windows, their queries, and the queries written before them.
-    pub(crate) windows: u64,
+    /// Queries of windows, and those written before them.
     pub(crate) measured: u64,
     pub(crate) warm_ups: u64,
 }
 
 impl Cutter {
     pub(crate) fn new(every: Every, warm_up: usize) -> Self {
-        Self { every, warm_up, recent: VecDeque::new(), came: 0, stratum: 0, windows: 0, measured: 0, warm_ups: 0 }
+        Self { every, warm_up, recent: VecDeque::new(), came: 0, stratum: 0, measured: 0, warm_ups: 0 }
     }
 
     /// Takes the next queries. What lies in a window goes to `emit`; where one begins, first the queries before it, whether
@@ -38,7 +37,6 @@ impl Cutter {
             let inside = self.came >= window.start;
             let meta = BlockMeta { batch: self.stratum, ..BlockMeta::default() };
             if self.came == window.start {
-                self.windows += 1;
                 self.warm_ups += self.recent.len() as u64;
                 emit(BlockMeta { warm_up: true, ..meta }, self.recent.make_contiguous())?;
             }
