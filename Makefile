@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures charts-cache frontier structures scenes test check full-size causes stability bench man clean
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check full-size causes stability bench man clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -93,6 +93,7 @@ include scripts/structures.mk
 include scripts/accuracy.mk
 include scripts/pictures.mk
 include scripts/paper.mk
+include scripts/coverage.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ mod charts;
 mod cli;
 mod curves;
 mod damage;
+mod estimates;
 mod files;
 mod foreign;
 mod guide;

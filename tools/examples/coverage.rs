@@ -59,8 +59,8 @@ fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
     let mut table =
         Table::new(["order", "rule"].map(Column::text).into_iter().chain(MEASURES.map(Column::number)).collect());
     let fixed = population.measure(&args, None);
-    // An interval that takes somewhat less than the share, so that there is something to stop at.
-    let until = fixed.half_width / population.truth * 1.15;
+    // An interval that takes about half of the share, so that the rule stops before it is used up.
+    let until = fixed.half_width / population.truth * 1.3;
     for (rule, measured) in [("fixed", &fixed), ("until", &population.measure(&args, Some(until)))] {
         let words = [args.order.as_str(), rule].map(|word| Value::Text(word.to_owned()));
         let numbers = measured.values(&args, &population, if rule == "until" { until } else { f64::NAN });
@@ -218,7 +218,7 @@ impl Population {
         for seed in 0..args.seeds {
             let ratio = match until {
                 None => self.sample(most, seed, &mut measured),
-                Some(until) => self.tuned(Tuning { until, pilot: (most / 3).max(4) }, seed, &mut measured),
+                Some(until) => self.tuned(Tuning { until, pilot: (most / 2).max(4) }, most, seed, &mut measured),
             };
             let off = ratio.value - self.truth;
             measured.held += u64::from(off.abs() <= ratio.half_width());
@@ -231,12 +231,12 @@ impl Population {
         measured
     }
 
-    /// What a sample tells that windows are added to until its interval is narrow enough.
-    fn tuned(&self, tuning: Tuning, seed: u64, measured: &mut Measured) -> Ratio {
+    /// What a sample tells that windows are added to until its interval is narrow enough, or there are as many as may be.
+    fn tuned(&self, tuning: Tuning, most: u64, seed: u64, measured: &mut Measured) -> Ratio {
         let mut windows = tuning.pilot;
         let mut ratio = self.sample(windows, seed * ROUNDS, measured);
         for round in 1..ROUNDS {
-            let more = tuning.missing(windows, &ratio);
+            let more = tuning.missing(windows, &ratio).min(most - windows);
             if more == 0 {
                 break;
             }

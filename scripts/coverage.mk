@@ -1,0 +1,35 @@
+# make coverage: do the intervals of samples hold the truth as often as they say? At sizes where the whole is simulated as well,
+# with a thousand samples of at most 5 % of the searches, warm-up included: of a fixed number of windows, and added to until
+# the interval is narrow enough. Each point is out/coverage/ORDER.csv.
+
+COVERAGE_SEEDS := 1000
+COVERAGE_ORDERS := scanline tiled binned binned-hashed tiled-hilbert
+COVERAGE_SIZE := --size 64x64
+
+# Windows of searches and their warm-up. Of tiled-hilbert, windows are whole tiles, and the picture is one of many tiles.
+COVERAGE_scanline := --window 100 --warm-up 40
+COVERAGE_tiled := --window 100 --warm-up 40
+COVERAGE_binned := --window 64 --warm-up 64
+COVERAGE_binned-hashed := --window 64 --warm-up 48
+COVERAGE_tiled-hilbert :=
+COVERAGE_SIZE_tiled-hilbert := --size 192x192 --tile 8
+
+coverage: out/coverage.csv ## How often intervals of samples hold the truth, over 1,000 seeds: out/coverage.csv
+	@awk -f scripts/coverage.awk $<
+
+out/coverage/map.pmp: | programs
+	mkdir -p $(@D)
+	$(LAUNCH) $(BIN)/pm-photons -n 100000 -t $(THREADS) -o $@
+
+out/coverage/coverage: | programs
+	mkdir -p $(@D)
+	$(CARGO) build --release -p pm-tools --example coverage
+	cp $(BIN)/examples/coverage $@
+
+COVERAGE_POINTS := $(COVERAGE_ORDERS:%=out/coverage/%.csv)
+$(COVERAGE_POINTS): out/coverage/%.csv: out/coverage/map.pmp out/coverage/coverage
+	$(LAUNCH) sh -c '$(call ORDER_$*,$(or $(COVERAGE_SIZE_$*),$(COVERAGE_SIZE)),$<,) | $(BIN)/pm-gather $< -t $(THREADS) | \
+	    out/coverage/coverage --order $* --seeds $(COVERAGE_SEEDS) $(COVERAGE_$*) --format csv' > $@
+
+out/coverage.csv: $(COVERAGE_POINTS)
+	$(JOIN) $^ > $@
