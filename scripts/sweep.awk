@@ -149,7 +149,8 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     queries_file = "out/streams/" slug(text["scene"] " " replace(text["queries"], "{photons}", slug(text["photons"]))) ".pmq"
     text["stream"] = replace(text["stream"], "{photons}", photons_file)
 
-    pipe = text["command"]
+    # What looks like a variable of make's is the shell's.
+    pipe = replace(text["command"], "$", "$$")
     if (pipe == "") {
         pipe = text["stream"] == "" ? "pm-gather -q {photons} {queries}" : "< {queries} " text["stream"] " | pm-gather -q {photons}"
         pipe = pipe " -t $(THREADS)" (text["gather"] == "" ? "" : " " text["gather"]) \
