@@ -284,6 +284,7 @@ fn a_chart_becomes_a_page_by_its_name() {
     assert_eq!(faults(&text), Vec::<String>::new());
     let html = Html::parse_document(&text);
     assert_eq!((all(&html, "figure.chart").len(), all(&html, "tbody tr").len()), (1, 4));
+    assert_eq!(all(&html, "h1, h2").iter().map(self::text).collect::<Vec<_>>(), ["Fetches"]);
     let piped = folder.feed(&format!("{line} -o piped.html"), &folder.read("tables/sizes.csv")).ok();
     assert!(piped.stdout.is_empty());
     let piped = String::from_utf8(folder.read("piped.html")).expect("text");

@@ -96,26 +96,31 @@ impl Plot {
         )
     }
 
-    /// A legend for a page: the name of each series and of each of the reference, with its key as SVG.
+    /// A legend for a page: the name of each series, of each of the reference and of the frontier, if it is drawn, with its
+    /// key as SVG.
     ///
     /// # Panics
     /// Never: the library draws into memory.
     #[must_use]
-    pub fn keys(&self, lines: bool) -> Vec<(&str, String)> {
-        let key = |number, colour, lines| {
+    pub fn keys(&self, look: &Look) -> Vec<(&str, String)> {
+        let (width, height) = KEY;
+        let middle = height as i32 / 2;
+        let key = |draw: &dyn Fn(&Area<'_>) -> Result<(), Box<dyn Error>>| {
             let mut svg = String::new();
-            {
-                let root = SVGBackend::with_string(&mut svg, (KEY.0, KEY.1)).into_drawing_area();
-                draw_key(&root, KEY.1 as i32 / 2, number, colour, lines).expect("drawing into memory does not fail");
-            }
-            let (width, height) = KEY;
+            draw(&SVGBackend::with_string(&mut svg, KEY).into_drawing_area())
+                .expect("drawing into memory does not fail");
             let drawn = &svg[behind_tag(&svg)..];
             format!("<svg class=\"key\" aria-hidden=\"true\" width=\"{width}\" height=\"{height}\">{drawn}")
         };
-        let ours = self.series.iter().enumerate();
-        let ours = ours.map(|(number, series)| (&*series.name, key(number, of_series(number), lines)));
+        let ours = self.series.iter().enumerate().map(|(number, series)| {
+            (&*series.name, key(&|area| draw_key(area, middle, number, of_series(number), look.lines)))
+        });
         let reference = self.reference.iter().enumerate();
-        ours.chain(reference.map(|(number, series)| (&*series.name, key(number, GREY, false)))).collect()
+        let reference =
+            reference.map(|(number, series)| (&*series.name, key(&|area| draw_key(area, middle, number, GREY, false))));
+        let step = PathElement::new(vec![(2, middle), (26, middle)], INK.stroke_width(1));
+        let frontier = look.frontier.then(|| ("frontier", key(&|area| area.draw(&step).map_err(own))));
+        ours.chain(reference).chain(frontier).collect()
     }
 
     fn draw(&self, root: &Area<'_>, look: &Look) -> Result<(), Box<dyn Error + '_>> {
@@ -396,8 +401,8 @@ mod tests {
         assert!(!svg.contains("<style") && svg.matches("<svg").count() == 1 && svg.trim_end().ends_with("</svg>"));
         // The marks are the points', not a legend's.
         assert_eq!(svg.matches("<circle").count(), 1);
-        let keys = plot.keys(true);
-        assert_eq!(keys.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["a", "b"]);
+        let keys = plot.keys(&look());
+        assert_eq!(keys.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["a", "b", "frontier"]);
         assert!(keys[0].1.contains("<circle") && keys[1].1.contains("<rect"), "{keys:?}");
     }
 

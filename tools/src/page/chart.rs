@@ -43,7 +43,7 @@ pub(super) fn html(
         html += plot.svg_in_page(&look(size), class).trim_end();
         html.push('\n');
     }
-    let keys = plot.keys(!block.points);
+    let keys = plot.keys(&look(WIDE));
     if keys.len() > 1 || !block.by.is_empty() {
         html += "<ul class=\"legend\">\n";
         for (name, key) in keys {

@@ -44,7 +44,7 @@ fn english() -> String {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
-    /// Its heading.
+    /// Its heading; may be empty.
     pub heading: String,
     /// By which links reach it [default: the words of the heading].
     #[serde(default)]
@@ -331,7 +331,6 @@ impl Description {
             ..TableBlock::default()
         };
         let section = Section {
-            heading: title.clone(),
             chart: vec![Spanned::new(0..0, ChartBlock { title: String::new(), ..chart })],
             table: vec![Spanned::new(1..1, table)],
             ..Section::default()

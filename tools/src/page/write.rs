@@ -46,8 +46,9 @@ impl Writer<'_> {
         let mut contents = String::new();
         for (section, id) in page.section.iter().zip(&ids) {
             let line = page.line(section.span().start);
-            let (heading, html) = self.section(section.as_ref(), id).map_err(|error| error.at_line(line))?;
+            let (heading, html) = self.section(section.as_ref(), id, line).map_err(|error| error.at_line(line))?;
             sections += &html;
+            let heading = if heading.is_empty() { id } else { &heading };
             let _ = writeln!(contents, "<li><a href=\"#{}\">{heading}</a></li>", escaped(id));
         }
         if let Some((lost, line)) = self.links.iter().find(|(link, _)| !self.ids.contains(link)) {
@@ -100,10 +101,12 @@ impl Writer<'_> {
     }
 
     /// A section: its heading, and all of it.
-    fn section(&mut self, section: &Section, id: &str) -> Result<(String, String), PageError> {
+    fn section(&mut self, section: &Section, id: &str, line: Option<usize>) -> Result<(String, String), PageError> {
         let heading = escaped(&self.plain(&section.heading)?);
-        let line = None;
-        let mut html = format!("<section{}>\n<h2>{heading}</h2>\n", id_attribute(Some(id)));
+        let mut html = format!("<section{}>\n", id_attribute(Some(id)));
+        if !heading.is_empty() {
+            let _ = writeln!(html, "<h2>{heading}</h2>");
+        }
         html += &self.text(&section.text, line)?;
         let mut in_pictures = false;
         for (start, block) in section.blocks() {
