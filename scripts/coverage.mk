@@ -1,5 +1,5 @@
 # make coverage: do the intervals of samples hold the truth as often as they say? At sizes where the whole is simulated as well,
-# with a thousand samples of at most 5 % of the searches, warm-up included: of a fixed number of windows, and added to until
+# with a thousand samples of 5 % of the searches, warm-up included: of a fixed number of windows, and added to until
 # the interval is narrow enough. Each point is out/coverage/ORDER.csv.
 
 COVERAGE_SEEDS := 1000
@@ -12,7 +12,7 @@ COVERAGE_tiled := --window 100 --warm-up 40
 COVERAGE_binned := --window 64 --warm-up 64
 COVERAGE_binned-hashed := --window 64 --warm-up 48
 COVERAGE_tiled-hilbert :=
-COVERAGE_SIZE_tiled-hilbert := --size 192x192 --tile 8
+COVERAGE_SIZE_tiled-hilbert := --size 200x200 --tile 10
 
 coverage: out/coverage.csv ## How often intervals of samples hold the truth, over 1,000 seeds: out/coverage.csv
 	@awk -f scripts/coverage.awk $<

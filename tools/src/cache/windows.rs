@@ -3,9 +3,9 @@
 //! A window is a run of blocks of one batch, those of warm-up first. Its caches begin empty. Once a cache's state is exact
 //! ([`Warmth`]), each access hits or misses as it does when the whole stream is simulated. Where that is so when warm-up
 //! ends, the window is exact. Where it is not, the window must not be left out, since it is the searches that lie close
-//! together and fetch little that do not fill a cache: without them fetches of the Cornell box are too high by 3 % to 13 %.
-//! Nor may it count as if it were exact. But the truth lies between two bounds, since lines that a set sees for the first
-//! time before it is filled are all that is not known: half of these are counted, and the interval is as much wider.
+//! together and fetch little that do not fill a cache, and without them the estimate is too high. Nor may it count as if it
+//! were exact. But the truth lies between two bounds, since lines that a set sees for the first time before it is filled are
+//! all that is not known: half of these are counted, and the interval is as much wider.
 
 use pm_formats::trace::{Access, Region, TraceSink};
 use thiserror::Error;

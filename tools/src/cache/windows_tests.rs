@@ -149,8 +149,8 @@ fn after_warm_up_each_window_costs_what_it_costs_in_the_whole() {
             let (found, expected) = (row.fetches_per_query(), expected as f64 / (13.0 * 60.0));
             assert!((found.value - expected).abs() <= found.doubt + 1e-12, "{cache} {warm_up}");
             assert!(found.doubt == 0.0 || inexact > 0);
-            // Short warm-up fills none of them, long warm-up all.
-            assert!(warm_up > 3 || inexact == 13 || cache.lines() == 0);
+            // No warm-up fills none of them, long warm-up all.
+            assert!(warm_up > 0 || inexact == 13 || cache.lines() == 0);
             assert!(warm_up < 200 || inexact == 0);
         }
     }
@@ -159,7 +159,7 @@ fn after_warm_up_each_window_costs_what_it_costs_in_the_whole() {
 #[test]
 fn what_is_unknown_is_each_line_first_seen_until_its_set_is_filled() {
     let searches = searches(60, 6);
-    for (row, cache) in simulate(&searches, &[(0..4, 4..60)], 1, 1.0).iter().zip(caches()).take(4) {
+    for (row, cache) in simulate(&searches, &[(0..1, 1..60)], 1, 1.0).iter().zip(caches()).take(4) {
         let (line, number) = (u64::from(cache.line_bytes()), cache.sets());
         let ways = (cache.lines() / number) as usize;
         let mut seen: Vec<BTreeSet<u64>> = vec![BTreeSet::new(); number as usize];
@@ -167,11 +167,12 @@ fn what_is_unknown_is_each_line_first_seen_until_its_set_is_filled() {
         for (i, search) in searches.iter().enumerate() {
             for line in search.iter().flat_map(|access| lines(access, line)) {
                 let set = &mut seen[(line % number) as usize];
-                unknown += u64::from(set.len() < ways && set.insert(line) && i >= 4);
+                unknown += u64::from(set.len() < ways && set.insert(line) && i >= 1);
             }
         }
         assert_eq!(row.counts[0].unknown_fetches(), unknown, "{cache}");
-        assert!(unknown > 0);
+        // One search of 12 records, of two lines each at most, does not fill 32 lines.
+        assert!(unknown > 0 || cache.lines() < 32);
     }
 }
 
