@@ -1,7 +1,7 @@
 # The paper's sentences beside our results, and what comes of them:
 #   awk -f scripts/claims.awk scripts/claims.csv                the verdicts, as CSV; fails if a result is missing
 #   awk -v list=1 -f scripts/claims.awk scripts/claims.csv      the files of results that they need
-# scripts/claims.csv says how a line is written.
+# scripts/claims.csv says how a line is written. Where a limit lies within the 95 % interval of what was sampled, nothing is decided.
 
 function fail(why) { print FILENAME ":" FNR ": " why > "/dev/stderr"; failed = 1; exit 1 }
 
@@ -37,6 +37,8 @@ function result(reference,   at, file, column, which, line, n, i, name, value, f
     }
     close(file)
     if (!found) fail(file " has no " column (which == "" ? "" : " of " which))
+    # Relative half widths of independent estimates add up in squares.
+    if (cell_of[column] != 0) doubt += (cell_of[column "_error"] / cell_of[column]) ^ 2
     return cell_of[column]
 }
 
@@ -54,6 +56,7 @@ function value_of(word) {
 # From left to right.
 function evaluated(text,   word, n, i, sum, right) {
     n = split(text, word, " ")
+    doubt = 0
     sum = value_of(word[1])
     for (i = 2; i < n; i += 2) {
         right = value_of(word[i + 1])
@@ -85,8 +88,11 @@ function holds(value, paper, rule,   word, limit) {
     } else {
         value = evaluated(cell[6])
         if (list) next
-        verdict = holds(value, cell[5], cell[7]) ? "confirmed" : "not confirmed"
-        ours = sprintf("%.4g", value)
+        half = value * sqrt(doubt)
+        low = holds(value - half, cell[5], cell[7]); high = holds(value + half, cell[5], cell[7])
+        verdict = low && high ? "confirmed" : low || high || holds(value, cell[5], cell[7]) ? "cannot be decided" : "not confirmed"
+        if (verdict == "cannot be decided") cell[8] = "the limit lies within the interval"
+        ours = sprintf("%.4g", value) (doubt > 0 ? sprintf(" ± %.2g", half) : "")
         ratio = cell[5] == "" || cell[5] == 0 ? "" : sprintf("%.3g", value / cell[5])
     }
     if (!list) printf "%s,%s,\"%s\",%s,%s,%s,%s,%s,%s,\"%s\",\"%s\"\n", cell[1], cell[2], cell[3], cell[4], cell[5], ours, ratio, cell[7], verdict, cell[8], cell[6]

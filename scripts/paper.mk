@@ -2,7 +2,8 @@
 
 PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards failures
 PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest claims)
-PAPER_PICTURES := $(patsubst %,out/paper/%.png,cornell fractal columns)
+# Of Figures 1 and 4; scripts/pictures.mk renders them.
+PAPER_PICTURES := $(patsubst %,out/pictures/%.png,cornell fractal columns columns-cached)
 
 paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: a quarter of an hour)
 	@echo "Report: $<"
@@ -23,17 +24,6 @@ out/paper/cheapest.csv: out/pictures.csv scripts/cheapest.awk
 	@mkdir -p $(@D)
 	@awk -f scripts/cheapest.awk $< > $@
 
-# The pictures of Figures 1 and 4.
-SCENE_OF_fractal := out/scenes/fractal.obj
-SCENE_OF_columns := out/scenes/columns.obj
-.SECONDEXPANSION:
-$(PAPER_PICTURES): out/paper/%.png: $$(SCENE_OF_$$*) | programs
-	@mkdir -p $(@D)
-	$(LAUNCH) bash -euo pipefail -c 'pm-photons -q $(SCENE_OF_$*) -n 450000 -t $(THREADS) -o out/paper/$*.pmp && \
-	    pm-queries -q $(SCENE_OF_$*) --size 256x256 --gathers 36 -t $(THREADS) --base out/paper/$*.exr | \
-	    pm-gather -q out/paper/$*.pmp - -t $(THREADS) --no-trace --base out/paper/$*.exr --image $@'
-	@test -s $@
-
 # What pictures are compared with: many photons, many neighbours, many rays, another seed.
 out/references/cornell.exr out/references/cornell.base.exr &: | programs
 	@mkdir -p $(@D)
@@ -45,7 +35,8 @@ out/references/cornell.exr out/references/cornell.base.exr &: | programs
 # The diffuse box, and the same with every surface as glossy as not.
 out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scenes/cornell-diffuse.obj scenes/cornell-diffuse.mtl
 	@mkdir -p $(@D)
-	@awk -v glossy=$(filter glossy,$*) '{ print } glossy && /^Kd .*[1-9]/ { print "Ks .3 .3 .3\nNs 20" }' scenes/cornell-diffuse.mtl > out/scenes/box-$*.mtl
+	@awk -v glossy=$(filter glossy,$*) 'glossy && /^Kd .*[1-9]/ { print "Kd", $$2 * .6, $$3 * .6, $$4 * .6; print "Ks .3 .3 .3\nNs 20\nillum 2"; lit = 1; next } \
+	    lit && /^illum/ { lit = 0; next } { print }' scenes/cornell-diffuse.mtl > out/scenes/box-$*.mtl
 	@cp scenes/cornell-diffuse.camera.toml out/scenes/box-$*.camera.toml
 	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
 
@@ -54,3 +45,18 @@ out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=
 	@mkdir -p $(@D)
 	@awk -f scripts/claims.awk $< > $@.part
 	@mv $@.part $@
+
+# The same in full, in a folder of its own where nothing is cut into windows or thinned; what there is stays, so that it may be
+# stopped and go on.
+EXACT := out/exact
+paper-exact: programs ## The same with nothing sampled: some hours, point by point; may be stopped and go on
+	@mkdir -p $(EXACT)/scripts/sweeps
+	@cp -pr Makefile scenes $(EXACT) && cp -p $(wildcard scripts/*.*) $(EXACT)/scripts
+	@for table in scripts/sweeps/*.csv; do \
+	    awk -f scripts/exact.awk $$table > $(EXACT)/new && { cmp -s $(EXACT)/new $(EXACT)/$$table || cp $(EXACT)/new $(EXACT)/$$table; } || exit 1; \
+	done
+	@sed -i 's/ \* 32\([ ,]\)/\1/g; s| / 32,|,|' $(EXACT)/scripts/claims.csv
+	@sed -i 's/ \* 32 / /g' $(EXACT)/scripts/report.toml
+	@ln -sfn $(CURDIR)/target $(EXACT)/target
+	$(MAKE) -C $(EXACT) CARGO=true paper
+.PHONY: paper-exact

@@ -30,7 +30,7 @@ file == 1 { paper[$at["order"], $at["map"]] = $at["fetches_per_block"]; next }
     history[rows] = cell[at["history"]]
     found[rows] = cell[at["found"]]
     # One query in so many of a random order stands for all.
-    if (order[rows] == "random") block[rows] *= 512
+    if (order[rows] == "random" && found[rows] == "thinned") block[rows] *= 512
     if (order[rows] == "scanline") plain[map[rows]] = block[rows]
 }
 

@@ -153,6 +153,8 @@ fn number(value: f64, bytes: bool) -> String {
     let size = value.abs();
     match size {
         _ if size < 1e-12 => "0".to_owned(),
+        // Lines of 1024 bytes are no 1020.
+        _ if size < 9999.5 && (value - value.round()).abs() < 1e-9 * size => value.round().to_string(),
         _ if !(1e-4..1e15).contains(&size) => format!("{value:.0e}"),
         _ if size >= 0.9995e12 => short(value / 1e12) + "T",
         _ if size >= 0.9995e9 => short(value / 1e9) + "G",

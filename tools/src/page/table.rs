@@ -182,7 +182,10 @@ impl Column {
             let half = number(error).ok_or_else(|| {
                 PageError::read(format!("{}: `{error}` as half the width of an interval is not a number", sheet.name))
             })?;
-            text += &format!(" ± {}", write(half));
+            // What is known in full has no interval.
+            if half > 0.0 {
+                text += &format!(" ± {}", write(half));
+            }
         }
         Ok(text)
     }
