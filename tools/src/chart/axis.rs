@@ -202,6 +202,14 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_keep_all_their_digits() {
+        let lines = [32.0, 1024.0];
+        let axis = Axis::fit("line", Scale::Log2, vec![], lines.into_iter()).expect("an axis");
+        let labels: Vec<String> = axis.ticks(5.0, 10.0, 10).iter().map(|&tick| axis.tick_label(tick)).collect();
+        assert_eq!(labels.join(" "), "32 64 128 256 512 1024");
+    }
+
+    #[test]
     fn all_values_lie_within_the_range_even_if_there_is_but_one() {
         for values in [vec![5.0], vec![0.0], vec![-3.0, -1.0], vec![1e-9, 1e12]] {
             let axis = axis("n", &values);

@@ -198,7 +198,7 @@ mod tests {
 
     fn table(toml: &str) -> Result<String, PageError> {
         let mut sheets = Sheets::default();
-        let ours = "order,n,width,found,history\nb,2000,30,sampled,pm-queries | x\na,12.345,,full,pm-queries\n";
+        let ours = "order,n,width,found,history\nb,2000,30,sampled,pm-queries | x\na,12.345,0,full,pm-queries\n";
         sheets.add("t.csv", ours.as_bytes().to_vec())?;
         sheets.add("p.csv", b"order,value\na,10\nb,58-63\n".to_vec())?;
         let page = format!("title = 'T'\n[[section]]\nheading = 'S'\n[[section.table]]\ntables = ['t.csv']\n{toml}");
