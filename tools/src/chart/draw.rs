@@ -25,6 +25,9 @@ pub struct Look {
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// What came of drawing.
+type Drawn = Result<(), Box<dyn Error>>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ruler, Ruler>>;
 
 /// An axis for the library: places, and ticks at some of them.
@@ -105,7 +108,7 @@ impl Plot {
     pub fn keys(&self, look: &Look) -> Vec<(&str, String)> {
         let (width, height) = KEY;
         let middle = height as i32 / 2;
-        let key = |draw: &dyn Fn(&Area<'_>) -> Result<(), Box<dyn Error>>| {
+        let key = |draw: &dyn Fn(&Area<'_>) -> Drawn| {
             let mut svg = String::new();
             draw(&SVGBackend::with_string(&mut svg, KEY).into_drawing_area())
                 .expect("drawing into memory does not fail");
@@ -271,7 +274,7 @@ impl Plot {
 }
 
 /// Draws the key of series number `number` at this height of the legend.
-fn draw_key(area: &Area<'_>, at: i32, number: usize, colour: RGBColor, lines: bool) -> Result<(), Box<dyn Error>> {
+fn draw_key(area: &Area<'_>, at: i32, number: usize, colour: RGBColor, lines: bool) -> Drawn {
     if lines {
         let style = colour.stroke_width(2);
         let pieces: &[(i32, i32)] = if is_dashed(number) { &[(2, 8), (20, 26)] } else { &[(2, 26)] };
@@ -310,7 +313,7 @@ fn interval(point: &Point) -> (f64, f64) {
 }
 
 /// Draws the mark of series number `number`: another shape for each, so that no one depends on colours alone.
-fn mark(area: &Area<'_>, (x, y): (i32, i32), number: usize, colour: RGBColor) -> Result<(), Box<dyn Error>> {
+fn mark(area: &Area<'_>, (x, y): (i32, i32), number: usize, colour: RGBColor) -> Drawn {
     let fill = colour.filled();
     let polygon = |corners: &[(i32, i32)]| corners.iter().map(|&(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>();
     match number % 6 {
