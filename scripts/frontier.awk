@@ -1,7 +1,8 @@
 # From joined rows of a sweep (frontier, full) to the points of the frontier:
 #   awk -f scripts/frontier.awk out/full.csv out/frontier.csv
 # On chip is the cache, what the order needs and the cache of results. A cache larger than the map holds the map; of those
-# only the least is kept. `best` is a point that no other of its series, with the same record, beats on both axes. An order that an
+# only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared nothing,
+# so that its map and result traffic are at most so large. `best` is a point that no other of its series, with the same record, beats on both axes. An order that an
 # earlier table has in full, with the same photons, is not taken from a later one.
 
 BEGIN {
