@@ -11,7 +11,7 @@ COVERAGE_scanline := --window 100 --warm-up 40
 COVERAGE_tiled := --window 100 --warm-up 40
 COVERAGE_binned := --window 64 --warm-up 64
 COVERAGE_binned-hashed := --window 64 --warm-up 48
-COVERAGE_tiled-hilbert :=
+COVERAGE_tiled-hilbert := --share 0.049
 COVERAGE_SIZE_tiled-hilbert := --size 200x200 --tile 10
 
 coverage: out/coverage.csv ## How often intervals of samples hold the truth, over 1,000 seeds: out/coverage.csv
@@ -28,8 +28,8 @@ out/coverage/coverage: | programs
 
 COVERAGE_POINTS := $(COVERAGE_ORDERS:%=out/coverage/%.csv)
 $(COVERAGE_POINTS): out/coverage/%.csv: out/coverage/map.pmp out/coverage/coverage
-	$(LAUNCH) sh -c '$(call ORDER_$*,$(or $(COVERAGE_SIZE_$*),$(COVERAGE_SIZE)),$<,) | $(BIN)/pm-gather $< -t $(THREADS) | \
-	    out/coverage/coverage --order $* --seeds $(COVERAGE_SEEDS) $(COVERAGE_$*) --format csv' > $@
+	$(call row,$(call ORDER_$*,$(or $(COVERAGE_SIZE_$*),$(COVERAGE_SIZE)),$<,) | pm-gather $< -t $(THREADS) | \
+	    out/coverage/coverage --order $* --seeds $(COVERAGE_SEEDS) $(COVERAGE_$*) --format csv)
 
 out/coverage.csv: $(COVERAGE_POINTS)
 	$(JOIN) $^ > $@
