@@ -5,7 +5,7 @@ PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 st
 # Of Figures 1 and 4; scripts/pictures.mk renders them.
 PAPER_PICTURES := $(patsubst %,out/pictures/%.png,cornell fractal columns columns-cached)
 
-paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: a quarter of an hour)
+paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: half an hour)
 	@echo "Report: $<"
 .PHONY: paper
 
