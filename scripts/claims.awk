@@ -1,21 +1,9 @@
 # The paper's sentences beside our results, and what comes of them:
-#   awk -f scripts/claims.awk scripts/claims.csv                the verdicts, as CSV; fails if a result is missing
-#   awk -v list=1 -f scripts/claims.awk scripts/claims.csv      the files of results that they need
+#   awk -f scripts/csv.awk -f scripts/claims.awk scripts/claims.csv                the verdicts, as CSV; fails if a result is missing
+#   awk -v list=1 -f scripts/csv.awk -f scripts/claims.awk scripts/claims.csv      the files of results that they need
 # scripts/claims.csv says how a line is written. Where a limit lies within the 95 % interval of what was sampled, nothing is decided.
 
 function fail(why) { print FILENAME ":" FNR ": " why > "/dev/stderr"; failed = 1; exit 1 }
-
-function split_line(line, cell,   n, i, c, quoted, text) {
-    split("", cell)
-    for (i = 1; i <= length(line); i++) {
-        c = substr(line, i, 1)
-        if (c == "\"") quoted = !quoted
-        else if (c == "," && !quoted) { cell[++n] = text; text = "" }
-        else text = text c
-    }
-    cell[++n] = text
-    return n
-}
 
 # A column of a point's row.
 function result(reference,   at, file, column, which, line, n, i, name, value, found) {

@@ -1,5 +1,5 @@
 # Joins the rows of a sweep's points into one table, the labels of each point in front:
-#   awk -f scripts/sweep.awk ... -v list=1 | awk -f scripts/join.awk
+#   awk -v list=1 -f scripts/csv.awk -f scripts/sweep.awk ... | awk -f scripts/csv.awk -f scripts/join.awk
 # A column of the same name as a label gives way to the label. Rows may have different columns: all are kept, empty where a row has none.
 
 BEGIN { FS = "," }
@@ -16,23 +16,11 @@ NR == 1 { labels = split($0, label, ","); for (i = 2; i <= labels; i++) is_label
         record[++records] = front
         for (i = 1; i <= n; i++) if (!(name[i] in is_label)) {
             if (!(name[i] in number)) { number[name[i]] = ++columns; column[columns] = name[i] }
-            value[records, number[name[i]]] = cell[i]
+            value[records, number[name[i]]] = quoted(cell[i])
         }
     }
     close(file)
     if (got < 0 || rows < 2) { print "join.awk: " file " has no row: remove it and run again" > "/dev/stderr"; failed = 1; exit 1 }
-}
-
-# The cells with their quotes.
-function split_line(line, cell,   n, i, c, quoted, text) {
-    split("", cell)
-    for (i = 1; i <= length(line); i++) {
-        c = substr(line, i, 1)
-        if (c == "\"") quoted = !quoted
-        if (c == "," && !quoted) { cell[++n] = text; text = "" } else text = text c
-    }
-    cell[++n] = text
-    return n
 }
 
 END {

@@ -14,7 +14,7 @@ out/paper/report.html: scripts/report.toml $(PAPER_DATA) $(PAPER_PICTURES) $(wil
 
 out/paper/table1.csv: scripts/paper-table1.csv out/table1.csv scripts/table1.awk
 	@mkdir -p $(@D)
-	@awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv > $@
+	@awk -f scripts/csv.awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv > $@
 
 out/paper/storage.csv: out/storage.csv scripts/frontier.awk
 	@mkdir -p $(@D)
@@ -41,9 +41,9 @@ out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scen
 	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
 
 # What the paper says, and what we find.
-out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=1 -f scripts/claims.awk scripts/claims.csv)
+out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=1 -f scripts/csv.awk -f scripts/claims.awk scripts/claims.csv)
 	@mkdir -p $(@D)
-	@awk -f scripts/claims.awk $< > $@.part
+	@awk -f scripts/csv.awk -f scripts/claims.awk $< > $@.part
 	@mv $@.part $@
 
 # The same in full, in a folder of its own where nothing is cut into windows or thinned; what there is stays, so that it may be
@@ -55,8 +55,6 @@ paper-exact: programs ## The same with nothing sampled: some hours, point by poi
 	@for table in scripts/sweeps/*.csv; do \
 	    awk -f scripts/exact.awk $$table > $(EXACT)/new && { cmp -s $(EXACT)/new $(EXACT)/$$table || cp $(EXACT)/new $(EXACT)/$$table; } || exit 1; \
 	done
-	@sed -i 's/ \* 32\([ ,]\)/\1/g; s| / 32,|,|' $(EXACT)/scripts/claims.csv
-	@sed -i 's/ \* 32 / /g' $(EXACT)/scripts/report.toml
 	@ln -sfn $(CURDIR)/target $(EXACT)/target
 	$(MAKE) -C $(EXACT) CARGO=true paper
 .PHONY: paper-exact

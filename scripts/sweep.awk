@@ -1,5 +1,5 @@
 # Turns a table of experiments into make rules, one target a point:
-#   awk -v sweep=structures -f scripts/sweep.awk scripts/words.csv scripts/sweeps/structures.csv > rules.mk
+#   awk -v sweep=structures -f scripts/csv.awk -f scripts/sweep.awk scripts/words.csv scripts/sweeps/structures.csv > rules.mk
 # or, with -v list=1, into the table of its points and their labels, in order (for scripts/join.awk).
 #
 # A table is CSV with a line of names. These columns are stages of the pipe, and empty if nothing is to be said:
@@ -22,20 +22,6 @@ BEGIN {
     split("scene photons queries stream gather cache", names, " ")
     for (i in names) stage[names[i]] = 1
     stage["command"] = stage["needs"] = stage["point"] = 1
-}
-
-# Splits a line of CSV into cell[1..]; quotes are doubled within quotes.
-function split_line(line, cell,   n, i, c, quoted, text) {
-    split("", cell)
-    for (i = 1; i <= length(line); i++) {
-        c = substr(line, i, 1)
-        if (quoted && c == "\"" && substr(line, i + 1, 1) == "\"") { text = text c; i++ }
-        else if (c == "\"") quoted = !quoted
-        else if (c == "," && !quoted) { cell[++n] = text; text = "" }
-        else text = text c
-    }
-    cell[++n] = text
-    return n
 }
 
 function fail(why) {
@@ -135,7 +121,7 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     out = "out/" sweep "/" name
     if (list) {
         line = out ".csv," name
-        for (i = 1; i <= labels; i++) line = line "," (word[i] ~ /[," ]/ ? "\"" word[i] "\"" : word[i])
+        for (i = 1; i <= labels; i++) line = line "," quoted(word[i])
         print line
         return
     }

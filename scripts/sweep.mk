@@ -31,9 +31,9 @@ $(LAUNCH) bash -euo pipefail -c '$1 -o $@'
 endef
 
 # Made each time, since a variable may have another value; left alone when nothing changed, or make would begin anew.
-out/sweeps/%.mk: %.csv scripts/words.csv scripts/sweep.awk always
+out/sweeps/%.mk: %.csv scripts/words.csv scripts/csv.awk scripts/sweep.awk always
 	@mkdir -p $(@D)
-	@awk -v sweep=$* -f scripts/sweep.awk scripts/words.csv $< > $@.part && { cmp -s $@.part $@ && rm $@.part || mv $@.part $@; }
+	@awk -v sweep=$* -f scripts/csv.awk -f scripts/sweep.awk scripts/words.csv $< > $@.part && { cmp -s $@.part $@ && rm $@.part || mv $@.part $@; }
 .PHONY: always
 
 ifneq ($(MAKECMDGOALS),clean)
@@ -42,7 +42,7 @@ endif
 
 define sweep_rules
 out/$1.csv: $$(POINTS.$1)
-	@awk -v sweep=$1 -v list=1 -f scripts/sweep.awk scripts/words.csv $(filter %/$1.csv $1.csv,$(SWEEP_TABLES)) | awk -f scripts/join.awk > $$@
+	@awk -v sweep=$1 -v list=1 -f scripts/csv.awk -f scripts/sweep.awk scripts/words.csv $(filter %/$1.csv $1.csv,$(SWEEP_TABLES)) | awk -f scripts/csv.awk -f scripts/join.awk > $$@
 endef
 $(foreach name,$(SWEEP_NAMES),$(eval $(call sweep_rules,$(name))))
 

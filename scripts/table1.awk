@@ -1,26 +1,15 @@
 # The paper's Table 1 from the joined rows of table1.csv, beside the paper's own:
-#   awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv
+#   awk -f scripts/csv.awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv
 # Fetches per block compare between orders of one map, not between maps, which differ in blocks. So does the share of the
 # plain order, in which the paper's and ours can be compared. Of a thinned stream fetches per block are what holds for the whole.
 
 BEGIN { FS = ","; print "order,map,found,queries_simulated,fetches_per_query,fetches_per_query_error,fetches_per_block,share_of_scanline,paper_fetches_per_block,paper_share_of_scanline,ratio,history" }
 
-function cells(   n, i, c, quoted, text) {
-    n = 0
-    for (i = 1; i <= length($0); i++) {
-        c = substr($0, i, 1)
-        if (c == "\"") quoted = !quoted
-        if (c == "," && !quoted) { cell[++n] = text; text = "" } else text = text c
-    }
-    cell[++n] = text
-    return n
-}
-
 FNR == 1 { file++; split("", at); for (i = 1; i <= NF; i++) at[$i] = i; next }
 file == 1 { paper[$at["order"], $at["map"]] = $at["fetches_per_block"]; next }
 
 {
-    cells()
+    split_line($0, cell)
     rows++
     order[rows] = cell[at["order"]]; map[rows] = cell[at["map"]]
     simulated = cell[at["queries_simulated"]]
@@ -42,6 +31,6 @@ END {
             own = paper[order[r], map[r]]; whole = paper["scanline", map[r]]
             printf "%s,%.4g,%.3g", own, own / whole, share / (own / whole)
         } else printf ",,"
-        print "," history[r]
+        print "," quoted(history[r])
     }
 }

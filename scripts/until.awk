@@ -1,23 +1,12 @@
 # Puts the rows of several samples of one stream together as one row with the same columns; or, with -v until=0.01, prints
 # how many windows are missing until the interval of fetches per query is as narrow as this share of it.
-#   awk -f scripts/until.awk round-1.csv round-2.csv ...
+#   awk -f scripts/csv.awk -f scripts/until.awk round-1.csv round-2.csv ...
 # Each file is what `pm-cachesim --format csv` prints of one trace of windows and one cache; the samples are independent.
 #
 # A number for each query is the mean of those of the samples, weighted by `queries_measured`; a number of the whole stream is
 # weighted by `sample_share`. So weighted, standard errors add up as squares, degrees of freedom by Satterthwaite's formula, and
 # doubt adds up as it is: half width = t(freedom) * error + doubt. Of other columns than fetches per query the half widths add
 # up as squares. Windows and queries are summed.
-
-function fields(line, of,    n, at, letter, quoted) {
-    n = 1; quoted = 0; of[1] = ""
-    for (at = 1; at <= length(line); at++) {
-        letter = substr(line, at, 1)
-        if (letter == "\"") quoted = !quoted
-        if (letter == "," && !quoted) of[++n] = ""
-        else of[n] = of[n] letter
-    }
-    return n
-}
 
 # The 0.975 quantile of Student's t: Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.5.
 function t(freedom,    x) {
@@ -28,9 +17,9 @@ function t(freedom,    x) {
         + (79*x^9 + 776*x^7 + 1482*x^5 - 1920*x^3 - 945*x) / 92160 / freedom^4
 }
 
-FNR == 1 { columns = fields($0, names); for (i = 1; i <= columns; i++) at[names[i]] = i; next }
+FNR == 1 { columns = split_line($0, names); for (i = 1; i <= columns; i++) at[names[i]] = i; next }
 
-{ rows++; fields($0, row); for (i = 1; i <= columns; i++) value[rows, i] = row[i] }
+{ rows++; split_line($0, row); for (i = 1; i <= columns; i++) value[rows, i] = row[i] }
 
 FNR > 2 { print "until.awk: " FILENAME " has rows of several caches; give one" > "/dev/stderr"; failed = 1; exit 1 }
 
@@ -75,7 +64,7 @@ END {
         exit
     }
     for (i = 1; i <= columns; i++) printf "%s%s", names[i], (i < columns ? "," : "\n")
-    for (i = 1; i <= columns; i++) printf "%s%s", together(i), (i < columns ? "," : "\n")
+    for (i = 1; i <= columns; i++) printf "%s%s", quoted(together(i)), (i < columns ? "," : "\n")
 }
 
 function total(name,    r, sum) { for (r = 1; r <= rows; r++) sum += of(r, name); return sum }

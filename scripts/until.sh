@@ -73,12 +73,12 @@ while [ "$missing" -gt 0 ]; do
     fi
     round "$missing" "$((100 + rounds))"
     windows=$((windows + missing)) rounds=$((rounds + 1))
-    [ -n "$quiet" ] || awk -v people=1 -f "$here/until.awk" "$rows"/*.csv >&2
+    [ -n "$quiet" ] || awk -v people=1 -f "$here/csv.awk" -f "$here/until.awk" "$rows"/*.csv >&2
     missing=0
-    [ -z "$until" ] || missing=$(awk -v until="$until" -f "$here/until.awk" "$rows"/*.csv)
+    [ -z "$until" ] || missing=$(awk -v until="$until" -f "$here/csv.awk" -f "$here/until.awk" "$rows"/*.csv)
     if [ "$missing" = doubt ]; then
         echo "until.sh: too much is in doubt for --until: longer --warm-up, or longer windows, fill the cache" >&2
         missing=0
     fi
 done
-awk -f "$here/until.awk" "$rows"/*.csv
+awk -f "$here/csv.awk" -f "$here/until.awk" "$rows"/*.csv

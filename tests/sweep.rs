@@ -126,7 +126,8 @@ fn every_claim_of_the_paper_has_a_verdict() {
     let folder = workshop();
     let awk = |list: &str| {
         let mut command = Command::new("awk");
-        command.args(["-v", list, "-f", "scripts/claims.awk", "scripts/claims.csv"]).current_dir(folder.path("."));
+        command.args(["-v", list, "-f", "scripts/csv.awk", "-f", "scripts/claims.awk", "scripts/claims.csv"]);
+        command.current_dir(folder.path("."));
         let output = command.output().expect("awk runs");
         (output.status.success(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
     };
