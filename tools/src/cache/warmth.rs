@@ -6,16 +6,25 @@
 
 use pm_formats::trace::{Access, Region};
 
-use super::{CacheConfig, Policy, lines::LineSpace, records::Shape, set_associative::Sets};
+use super::{CacheConfig, Policy, Span, lines::LineSpace, records::Shape, set_associative::Sets};
 
-/// Watches what a cache sees from when it is empty until its state is exact.
+/// Watches what caches of one line size see from when they are empty until the states of all are exact.
 pub(super) struct Warmth {
     space: LineSpace,
-    sets: Sets,
     /// By slot: the last start after which the line was seen.
     seen: Vec<u32>,
     /// Starts so far.
     starts: u32,
+    caches: Vec<Filling>,
+    /// Caches whose state is not exact.
+    open: usize,
+}
+
+/// How far a cache is filled.
+struct Filling {
+    /// Which of the simulation's caches it is.
+    cache: usize,
+    sets: Sets,
     /// Distinct lines each set has to see.
     wanted: Vec<u32>,
     /// Distinct lines each set has yet to see since the start.
@@ -27,64 +36,86 @@ pub(super) struct Warmth {
 }
 
 impl Warmth {
-    /// For a cache under LRU, or none, over lines of `space`.
-    pub(super) fn new(regions: &[Region], space: LineSpace, cache: &CacheConfig) -> Self {
-        let sets = Sets::new(cache.sets().max(1), cache.index());
+    /// For those of `caches`, under LRU or none, whose lines are of `line_bytes`.
+    pub(super) fn new(regions: &[Region], span: Span, line_bytes: u32, caches: &[CacheConfig]) -> Self {
+        let space = LineSpace::new(regions, line_bytes).with_span(span);
         let mut seen = vec![0; space.slots() as usize];
-        let mut lines = vec![0u32; sets.number()];
-        if cache.policy() != Policy::None {
-            for (region, extent) in regions.iter().enumerate().filter(|(_, extent)| extent.size > 0) {
-                let line_of = |offset| {
-                    let byte = Access::read(region as u16, offset, 1);
-                    space.ends(offset, Shape::new(&byte)).0
-                };
-                let (first, last) = (line_of(0), line_of(extent.size - 1));
-                for slot in first..=last {
-                    // Lines that two regions share are one.
-                    if std::mem::replace(&mut seen[slot as usize], 1) == 0 {
-                        lines[sets.of(space.line(region, slot))] += 1;
-                    }
-                }
-            }
-            seen.fill(0);
+        let mut lines = vec![];
+        for (region, extent) in regions.iter().enumerate().filter(|(_, extent)| extent.size > 0) {
+            let line_of = |offset| {
+                let byte = Access::read(region as u16, offset, 1);
+                space.ends(offset, Shape::new(&byte)).0
+            };
+            let (first, last) = (line_of(0), line_of(extent.size - 1));
+            // Lines that two regions share are one.
+            let own = (first..=last).filter(|&slot| std::mem::replace(&mut seen[slot as usize], 1) == 0);
+            lines.extend(own.map(|slot| space.line(region, slot)));
         }
-        let ways = cache.lines() / sets.number() as u64;
-        let wanted: Vec<u32> = lines.into_iter().map(|lines| u64::from(lines).min(ways) as u32).collect();
-        let open_sets = wanted.iter().filter(|&&lines| lines > 0).count();
-        Self { space, sets, seen, starts: 0, missing: vec![], wanted, open_sets, open: 0 }
+        seen.fill(0);
+        let caches = caches.iter().enumerate().filter(|(_, cache)| cache.line_bytes() == line_bytes);
+        let caches = caches.map(|(i, cache)| Filling::new(i, cache, &lines)).collect();
+        Self { space, seen, starts: 0, caches, open: 0 }
     }
 
-    /// The cache is empty.
+    /// The caches are empty.
     pub(super) fn start(&mut self) {
         self.starts = self.starts.checked_add(1).unwrap_or_else(|| {
             self.seen.fill(0);
             1
         });
-        self.missing.clone_from(&self.wanted);
-        self.open = self.open_sets;
+        for cache in &mut self.caches {
+            cache.missing.clone_from(&cache.wanted);
+            cache.open = cache.open_sets;
+        }
+        self.open = self.caches.iter().filter(|cache| cache.open > 0).count();
     }
 
-    /// Whether its state is exact.
-    pub(super) fn is_exact(&self) -> bool {
+    /// Whether the states of all are exact.
+    pub(super) fn all_exact(&self) -> bool {
         self.open == 0
     }
 
-    /// It sees an access, which lies within its region. Returns how many of its lines are seen for the first time since the
-    /// start by a set that is not yet filled: whether the cache would have them, had it run for ever, is not known.
-    pub(super) fn see(&mut self, access: &Access) -> u64 {
+    /// The caches, and whether their states are exact.
+    pub(super) fn exact(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.caches.iter().map(|cache| (cache.cache, cache.open == 0))
+    }
+
+    /// They see an access, which lies within its region. `unknown` is told each cache that sees a line for the first time
+    /// since the start in a set that is not yet filled: whether it would have the line, had it run for ever, is not known.
+    #[inline]
+    pub(super) fn see(&mut self, access: &Access, mut unknown: impl FnMut(usize)) {
         let (first, last) = self.space.ends(access.offset, Shape::new(access));
-        let mut unknown = 0;
         for slot in first..=last {
             if std::mem::replace(&mut self.seen[slot as usize], self.starts) == self.starts {
                 continue;
             }
-            let missing = &mut self.missing[self.sets.of(self.space.line(access.region.into(), slot))];
-            if *missing > 0 {
-                *missing -= 1;
-                unknown += 1;
-                self.open -= usize::from(*missing == 0);
+            let line = self.space.line(access.region.into(), slot);
+            for cache in self.caches.iter_mut().filter(|cache| cache.open > 0) {
+                let missing = &mut cache.missing[cache.sets.of(line)];
+                if *missing > 0 {
+                    *missing -= 1;
+                    unknown(cache.cache);
+                    cache.open -= usize::from(*missing == 0);
+                    self.open -= usize::from(cache.open == 0);
+                }
             }
         }
-        unknown
+    }
+}
+
+impl Filling {
+    /// Of a cache in a memory of these lines.
+    fn new(index: usize, cache: &CacheConfig, lines: &[u64]) -> Self {
+        let sets = Sets::new(cache.sets().max(1), cache.index());
+        let mut wanted = vec![0u32; sets.number()];
+        if cache.policy() != Policy::None {
+            let ways = cache.lines() / sets.number() as u64;
+            for &line in lines {
+                let wanted = &mut wanted[sets.of(line)];
+                *wanted += u32::from(u64::from(*wanted) < ways);
+            }
+        }
+        let open_sets = wanted.iter().filter(|&&lines| lines > 0).count();
+        Self { cache: index, sets, missing: vec![], wanted, open_sets, open: 0 }
     }
 }

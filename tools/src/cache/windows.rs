@@ -7,10 +7,12 @@
 //! were exact. But the truth lies between two bounds, since lines that a set sees for the first time before it is filled are
 //! all that is not known: half of these are counted, and the interval is as much wider.
 
+use std::collections::BTreeSet;
+
 use pm_formats::trace::{Access, Region, TraceSink};
 use thiserror::Error;
 
-use super::{CacheConfig, Measures, Policy, Row, Simulation, SimulationError, lines::LineSpace, warmth::Warmth};
+use super::{CacheConfig, Measures, Policy, Row, Simulation, SimulationError, warmth::Warmth};
 use crate::statistics::Ratio;
 
 /// Runs caches over a trace of windows that is replayed into it.
@@ -18,10 +20,16 @@ pub struct Windows {
     regions: Vec<Region>,
     measures: Measures,
     caches: Vec<Cache>,
+    /// One for each line size.
+    warmths: Vec<Warmth>,
+    /// All caches, in the window in hand.
+    simulation: Simulation,
     /// The batch of the window in hand.
     window: Option<u64>,
     /// Its block in hand is warm-up.
     warm_up: bool,
+    /// What counts has begun in the window in hand.
+    measuring: bool,
     /// Batches of the windows that are over.
     over: Vec<u64>,
     /// Queries of all windows, warm-up included.
@@ -31,10 +39,8 @@ pub struct Windows {
 /// One cache, in one window after the other.
 struct Cache {
     config: CacheConfig,
-    warmth: Warmth,
-    simulation: Simulation,
-    /// What counts has begun in the window in hand; with an exact state or not.
-    measuring: Option<bool>,
+    /// The state was exact when warm-up ended in the window in hand. Where nothing is measured, nothing is inexact.
+    exact: bool,
     /// Of the window in hand, line accesses of each region that may be hits but are counted as misses.
     unknown: Vec<u64>,
     windows: Vec<Counts>,
@@ -55,9 +61,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// What a simulation of one cache counted.
-    fn of(simulation: Simulation, unknown: Vec<u64>, exact: bool) -> Self {
-        let mut row = simulation.finish().swap_remove(0);
+    /// What a simulation counted of a cache.
+    fn of(mut row: Row, unknown: Vec<u64>, exact: bool) -> Self {
         let search_lines = row.more.working_sets.take().map(|sets| sets.per_search.sum());
         Self { row, unknown, exact, search_lines }
     }
@@ -84,7 +89,7 @@ pub enum WindowError {
 }
 
 impl Windows {
-    /// Prepares to simulate `configs`, each on its own, on a trace of these regions. Of `measures`, page switches, working
+    /// Prepares to simulate `configs` on a trace of these regions. Of `measures`, page switches, working
     /// sets of searches and the rule for records that span lines are heeded.
     ///
     /// # Errors
@@ -97,41 +102,61 @@ impl Windows {
             span: measures.span,
             ..Measures::default()
         };
-        let cache = |&config: &CacheConfig| {
-            if !matches!(config.policy(), Policy::Lru | Policy::None) {
-                return Err(WindowError::Policy(config));
-            }
-            let simulation = Simulation::measuring(regions, &[config], &measures)?;
-            let space = LineSpace::new(regions, config.line_bytes()).with_span(measures.span);
-            let warmth = Warmth::new(regions, space, &config);
-            let unknown = vec![0; regions.len()];
-            Ok(Cache { config, warmth, simulation, measuring: None, unknown, windows: vec![] })
-        };
+        if let Some(&other) = configs.iter().find(|config| !matches!(config.policy(), Policy::Lru | Policy::None)) {
+            return Err(WindowError::Policy(other));
+        }
+        let cache =
+            |&config: &CacheConfig| Cache { config, exact: true, unknown: vec![0; regions.len()], windows: vec![] };
+        let line_sizes: BTreeSet<u32> = configs.iter().map(CacheConfig::line_bytes).collect();
+        // Which finds out whether the regions are too large.
+        let simulation = Simulation::measuring(regions, configs, &measures)?;
+        let warmth = |line_bytes| Warmth::new(regions, measures.span, line_bytes, configs);
         Ok(Self {
             regions: regions.to_vec(),
-            caches: configs.iter().map(cache).collect::<Result<_, _>>()?,
+            simulation,
+            caches: configs.iter().map(cache).collect(),
+            warmths: line_sizes.into_iter().map(warmth).collect(),
             measures,
             window: None,
             warm_up: false,
+            measuring: false,
             over: vec![],
             simulated: 0,
         })
     }
 
+    /// Empty caches.
+    fn empty(&self) -> Simulation {
+        let configs: Vec<CacheConfig> = self.caches.iter().map(|cache| cache.config).collect();
+        let empty = Simulation::measuring(&self.regions, &configs, &self.measures);
+        empty.unwrap_or_else(|error| unreachable!("they could be simulated before: {error}"))
+    }
+
     fn end_window(&mut self) {
         if let Some(batch) = self.window.take() {
             self.over.push(batch);
-            for cache in &mut self.caches {
-                cache.end_window(&self.regions, &self.measures);
+            let empty = self.empty();
+            let rows = std::mem::replace(&mut self.simulation, empty).finish();
+            for (cache, row) in self.caches.iter_mut().zip(rows) {
+                let unknown = std::mem::replace(&mut cache.unknown, vec![0; self.regions.len()]);
+                cache.windows.push(Counts::of(row, unknown, cache.exact));
             }
         }
     }
 
     fn begin_window(&mut self, batch: u64) {
         self.window = Some(batch);
-        for cache in &mut self.caches {
-            cache.simulation.block(batch, true);
-            cache.warmth.start();
+        self.simulation.block(batch, true);
+        self.measuring = false;
+        self.warmths.iter_mut().for_each(Warmth::start);
+        self.caches.iter_mut().for_each(|cache| cache.exact = true);
+    }
+
+    fn begin_to_measure(&mut self, batch: u64) {
+        self.measuring = true;
+        self.simulation.block(batch, false);
+        for (cache, exact) in self.warmths.iter().flat_map(Warmth::exact) {
+            self.caches[cache].exact = exact;
         }
     }
 
@@ -147,35 +172,16 @@ impl Windows {
         let place = |i: usize| if numbered { self.over[i] as usize } else { i };
         let share = share.filter(|&share| share > 0.0 && share <= 1.0);
         let bytes: u128 = self.regions.iter().map(|region| u128::from(region.size)).sum();
-        let row = |mut cache: Cache| {
-            let found = std::mem::take(&mut cache.windows);
-            // What a window without queries counts.
-            let nothing = Counts::of(cache.simulation, vec![0; self.regions.len()], true);
+        // What a window without queries counts.
+        let nothing = self.empty().finish();
+        let row = |(cache, nothing): (Cache, Row)| {
+            let nothing = Counts::of(nothing, vec![0; self.regions.len()], true);
             let mut counts = vec![nothing; number as usize];
-            found.into_iter().enumerate().for_each(|(i, window)| counts[place(i)] = window);
+            cache.windows.into_iter().enumerate().for_each(|(i, window)| counts[place(i)] = window);
             let blocks = bytes.div_ceil(cache.config.line_bytes().into()) as u64;
             WindowedRow { config: cache.config, blocks, share, queries_simulated: self.simulated, counts }
         };
-        std::mem::take(&mut self.caches).into_iter().map(row).collect()
-    }
-}
-
-impl Cache {
-    fn end_window(&mut self, regions: &[Region], measures: &Measures) {
-        let empty = Simulation::measuring(regions, &[self.config], measures);
-        let empty = empty.unwrap_or_else(|error| unreachable!("it could be simulated before: {error}"));
-        let simulation = std::mem::replace(&mut self.simulation, empty);
-        let unknown = std::mem::replace(&mut self.unknown, vec![0; regions.len()]);
-        // Where nothing is measured, nothing is inexact.
-        let exact = self.measuring.take().unwrap_or(true);
-        self.windows.push(Counts::of(simulation, unknown, exact));
-    }
-
-    fn measure(&mut self, batch: u64) {
-        if self.measuring.is_none() {
-            self.measuring = Some(self.warmth.is_exact());
-            self.simulation.block(batch, false);
-        }
+        std::mem::take(&mut self.caches).into_iter().zip(nothing).map(row).collect()
     }
 }
 
@@ -190,23 +196,19 @@ impl TraceSink for Windows {
 
     fn search(&mut self, destinations: &[u32]) {
         self.simulated += destinations.len() as u64;
-        let batch = self.window.unwrap_or(0);
-        for cache in &mut self.caches {
-            if !self.warm_up {
-                cache.measure(batch);
-            }
-            cache.simulation.search(destinations);
+        if !self.warm_up && !self.measuring {
+            self.begin_to_measure(self.window.unwrap_or(0));
         }
+        self.simulation.search(destinations);
     }
 
     fn access(&mut self, access: Access) {
-        for cache in &mut self.caches {
-            if !cache.warmth.is_exact() {
-                let unknown = cache.warmth.see(&access);
-                cache.unknown[usize::from(access.region)] += if cache.measuring.is_some() { unknown } else { 0 };
-            }
-            cache.simulation.access(access);
+        for warmth in self.warmths.iter_mut().filter(|warmth| !warmth.all_exact()) {
+            warmth.see(&access, |cache| {
+                self.caches[cache].unknown[usize::from(access.region)] += u64::from(self.measuring);
+            });
         }
+        self.simulation.access(access);
     }
 }
 
