@@ -1,7 +1,7 @@
 # make paper: every table and figure of the paper again, sampled, and what the paper leaves out.
 
-PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards failures
-PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest claims)
+PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards sampling failures
+PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest sampling claims)
 # Of Figures 1 and 4; scripts/pictures.mk renders them.
 PAPER_PICTURES := $(patsubst %,out/pictures/%.png,cornell fractal columns columns-cached)
 
@@ -24,6 +24,10 @@ out/paper/cheapest.csv: out/pictures.csv scripts/cheapest.awk
 	@mkdir -p $(@D)
 	@awk -f scripts/cheapest.awk $< > $@
 
+out/paper/sampling.csv: out/sampling.csv scripts/sampled.awk
+	@mkdir -p $(@D)
+	@awk -f scripts/csv.awk -f scripts/sampled.awk $< > $@
+
 # What pictures are compared with: many photons, many neighbours, many rays, another seed.
 out/references/cornell.exr out/references/cornell.base.exr &: | programs
 	@mkdir -p $(@D)
@@ -31,6 +35,16 @@ out/references/cornell.exr out/references/cornell.base.exr &: | programs
 	    pm-queries -q --size 64x64 --seed 7 -t $(THREADS) --gathers 400 --light-samples 64 --base out/references/cornell.base.exr | \
 	    pm-gather -q out/references/cornell.pmp - -k 200 -t $(THREADS) --no-trace --base out/references/cornell.base.exr --image out/references/cornell.exr'
 	@test -s out/references/cornell.exr
+
+# Irradiance is cached with ease on a wall, and not in a corner. Both views without a cache, to compare with.
+VIEW := --size 48x48 --gathers 400 --vfov 40
+export VIEW_wall := $(VIEW) --eye 0,0.75,-0.1 --look-at 0,0.75,-0.5
+export VIEW_corner := $(VIEW) --eye -0.2,0.7,-0.2 --look-at -0.5,1,-0.5
+out/references/wall.exr out/references/corner.exr: out/references/%.exr: out/streams/scenes-cornell-diffuse.obj-n-50000.pmp | programs
+	@mkdir -p $(@D)
+	$(LAUNCH) bash -euo pipefail -c 'pm-queries -q scenes/cornell-diffuse.obj $(VIEW_$*) -t $(THREADS) --base out/references/$*.base.exr | \
+	    pm-gather -q $< - --no-trace -t $(THREADS) --base out/references/$*.base.exr --image $@'
+	@test -s $@
 
 # The diffuse box, and the same with every surface as glossy as not.
 out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scenes/cornell-diffuse.obj scenes/cornell-diffuse.mtl

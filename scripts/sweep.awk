@@ -16,7 +16,7 @@
 # stage, unless there is a dash. $(NAME) is the value of a variable that make exports. Lines that begin with # are remarks.
 #
 # What several points have in common is made once: photons, and queries with all that follows them in their column, such as
-# `--order tiled | pm-sample --batches 16`.
+# `--order tiled | pm-sample --batches 16`. Where others begin with the same queries, `||` instead of `|` keeps these too.
 
 BEGIN {
     split("scene photons queries stream gather cache", names, " ")
@@ -132,7 +132,7 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     for (i = 1; i <= n; i++) if (parts[i] ~ /\.obj$/) scene_needs = scene_needs " " parts[i]
     photons_file = "out/streams/" slug(text["scene"] " " text["photons"]) ".pmp"
     # What guides gather rays is in the name too.
-    queries_file = "out/streams/" slug(text["scene"] " " replace(text["queries"], "{photons}", slug(text["photons"]))) ".pmq"
+    queries_file = queries_name(text["scene"], text["queries"], text["photons"])
     text["stream"] = replace(text["stream"], "{photons}", photons_file)
 
     # What looks like a variable of make's is the shell's.
@@ -150,7 +150,7 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     if (index(pipe, "{queries}")) {
         needs = needs " " queries_file
         if (index(text["queries"], "{photons}")) scene_needs = scene_needs " " photons_file
-        stream_rule(queries_file, scene_needs, "pm-queries", text["scene"], replace(text["queries"], "{photons}", photons_file))
+        queries_rule(queries_file, scene_needs, text["scene"], text["queries"], text["photons"], photons_file)
     }
     pipe = replace(replace(replace(pipe, "{photons}", photons_file), "{queries}", queries_file), "{out}", out)
     print out ".csv: " needs " | programs"
@@ -158,15 +158,34 @@ function point(   s, i, name, text, out, photons_file, queries_file, needs, scen
     all = all " \\\n    " out ".csv"
 }
 
-# The rule of a stream; another table may have the same.
+function queries_name(scene, queries, photons) {
+    return "out/streams/" slug(scene " " replace(queries, "{photons}", slug(photons))) ".pmq"
+}
+
+# The rule of queries, and of those that they begin with if these are kept.
+function queries_rule(file, needs, scene, queries, photons, photons_file,   at, first) {
+    if (at = index(queries, "||")) {
+        first = substr(queries, 1, at - 1)
+        queries = substr(queries, at + 2)
+        at = queries_name(scene, first, photons)
+        queries_rule(at, needs, scene, first, photons, photons_file)
+        rule(file, " " at needs, "< " at queries)
+    } else stream_rule(file, needs, "pm-queries", scene, replace(queries, "{photons}", photons_file))
+}
+
 function stream_rule(file, needs, program, scene, options,   at, then) {
+    if (at = index(options, "|")) { then = " " substr(options, at); options = substr(options, 1, at - 1) }
+    rule(file, needs, program " -q " scene " " options " -t $(THREADS)" then)
+}
+
+# The rule of a stream; another table may have the same.
+function rule(file, needs, pipe) {
     if (file in ruled) return
     ruled[file] = 1
-    if (at = index(options, "|")) { then = " " substr(options, at); options = substr(options, 1, at - 1) }
     print "ifndef RULE." file
     print "RULE." file " := 1"
     print file ":" needs " | programs"
-    print "\t$(call stream," replace(program " -q " scene " " options " -t $(THREADS)" then, ",", "$(comma)") ")"
+    print "\t$(call stream," replace(pipe, ",", "$(comma)") ")"
     # Rows outlive it: without it, it is made again only for rows that are missing.
     print ".SECONDARY: " file
     print "endif"
