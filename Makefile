@@ -81,6 +81,7 @@ $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
 
 full-size: out/full.csv out/variants.csv ## The paper's size (512 x 512, 100 gathers, 450,000 photons) in full: an hour with -j2
 	@awk -v tiles=1024 -v rays=$$((512 * 512 * 100)) -f scripts/compare.awk scripts/paper.csv $^
+	@awk -f scripts/csv.awk -f scripts/traffic.awk $<
 
 # ---- make causes: what the fetches of the plain order depend on, at 64 x 64 pixels and the paper's 450,000 photons --
 

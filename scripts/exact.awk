@@ -10,5 +10,6 @@ FILENAME ~ /(convergence|failures|frontier|sampling|structures)[.]csv$/ { print;
     gsub(/ [|] pm-sample -q --(every|queries|batches) ([0-9]+|[{]m[}])/, "")
     gsub(/,(sampled|thinned),/, ",full,")
     gsub(/,1\/64,/, ",1,")
+    gsub(/--size 90x90/, "--size 512x512")
     print
 }

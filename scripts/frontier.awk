@@ -2,8 +2,9 @@
 #   awk -f scripts/frontier.awk out/full.csv out/frontier.csv
 # On chip is the cache, what the order needs and the cache of results. A cache larger than the map holds the map; of those
 # only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared nothing,
-# so that its map and result traffic are at most so large. `best` is a point that no other of its series, with the same record, beats on both axes. An order that an
-# earlier table has in full, with the same photons, is not taken from a later one.
+# so that its map and result traffic are at most so large. `best` is a point that no other of its series, with the same record,
+# beats on both axes. What an earlier table has in full, with the same photons, is not taken from a later one, nor is what is
+# thinned of an order that it has.
 
 BEGIN {
     FS = ","
@@ -24,8 +25,8 @@ FNR == 1 { file++; split("", at); for (i = 1; i <= NF; i++) at[$i] = i; last = "
     key = photons "," series "," $at["record"] "," name
     if (key != last) holds = 0
     last = key
-    if (file == 1) in_full[photons, series, $at["record"]] = 1
-    else if ((photons, series, $at["record"]) in in_full && $at["found"] != "full") next
+    if (file == 1) in_full[key] = in_full[photons, series, $at["record"]] = 1
+    else if (key in in_full || $at["found"] == "thinned" && (photons, series, $at["record"]) in in_full) next
     if (holds) next
     # Of the whole image, by the share that was simulated.
     times = $at["share"]; sub(/^1\//, "", times)

@@ -32,7 +32,7 @@ out/paper/sampling.csv: out/sampling.csv scripts/sampled.awk
 out/references/cornell.exr out/references/cornell.base.exr &: | programs
 	@mkdir -p $(@D)
 	$(LAUNCH) bash -euo pipefail -c 'pm-photons -q -n 2000000 --seed 7 -t $(THREADS) -o out/references/cornell.pmp && \
-	    pm-queries -q --size 64x64 --seed 7 -t $(THREADS) --gathers 400 --light-samples 64 --base out/references/cornell.base.exr | \
+	    pm-queries -q --size 48x48 --seed 7 -t $(THREADS) --gathers 400 --light-samples 64 --base out/references/cornell.base.exr | \
 	    pm-gather -q out/references/cornell.pmp - -k 200 -t $(THREADS) --no-trace --base out/references/cornell.base.exr --image out/references/cornell.exr'
 	@test -s out/references/cornell.exr
 

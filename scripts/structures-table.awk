@@ -18,7 +18,7 @@ $at["line"] == 128 {
 
 function row(name, text,   i) {
     printf "%-16s", name
-    for (i = 1; i <= 5; i++) printf " %18s", text[i]
+    for (i = 1; i <= 6; i++) printf " %18s", text[i]
     print ""
 }
 
@@ -27,16 +27,16 @@ function told(value, form, half) { return sprintf(form, value) (half > 0 ? sprin
 
 function part(title, value, form,   i, j, text) {
     print title
-    for (j = 1; j <= 5; j++) text[j] = orders[j]
+    for (j = 1; j <= 6; j++) text[j] = orders[j]
     row("map", text)
     for (i = 1; i <= number; i++) {
-        for (j = 1; j <= 5; j++) text[j] = ((maps[i], orders[j]) in value) ? told(value[maps[i], orders[j]], form, half[maps[i], orders[j]]) : "-"
+        for (j = 1; j <= 6; j++) text[j] = ((maps[i], orders[j]) in value) ? told(value[maps[i], orders[j]], form, half[maps[i], orders[j]]) : "-"
         row(maps[i], text)
     }
 }
 
 END {
-    split("scanline binned binned-hashed tiled-hilbert hilbert", orders, " ")
+    split("scanline binned binned-hashed tiled-hilbert hilbert random", orders, " ")
     printf "Windows, but of hilbert one query in %d of the sorted stream: dearer per query, not per block.\n\n", share
     part("Fetches per query, lines of 128 bytes, cache of 128 KiB:", query, "%.4g")
     print ""
