@@ -101,7 +101,7 @@ const LEAST_MEMORY: u64 = 64 << 10;
 const HASH_CELLS: u32 = 32;
 const BUFFER_CELLS: u32 = 8;
 /// Most cells of buffered: all of them are looked at when one is chosen.
-const MOST_BUFFERS: u32 = 4096;
+const MOST_BUFFERS: u32 = 16384;
 
 fn side(text: &str) -> Result<f32, String> {
     let parsed = text.parse().ok().filter(|&side: &f32| side > 0.0 && side.is_finite());
