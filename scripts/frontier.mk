@@ -12,7 +12,7 @@ FPS := 1
 FRONTIER_CHARTS := $(foreach photons,100000 450000 4000000,out/frontier/$(photons).svg out/frontier/$(photons)-compact.svg)
 
 frontier: $(FRONTIER_CHARTS) ## Bytes on chip against total traffic, every order (an hour with -j2; SHARE=64: half of it)
-	@$(if $(BUDGET),awk -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk out/frontier/points.csv,echo 'Charts: $^')
+	@$(if $(BUDGET),awk -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk,echo 'Charts: $^' && awk -f scripts/least.awk) out/frontier/points.csv
 
 # What was simulated in full is only of use at the same size.
 out/frontier/points.csv: $(if $(filter 512x512,$(FRONTIER_SIZE)),out/full.csv) out/frontier.csv scripts/frontier.awk
