@@ -18,7 +18,7 @@ mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
 pub use cache_records::{CacheOptions, CacheRecords};
-pub use gather_rays::{GatherOptions, GatherRays, Method, RayCounts, Strata};
+pub use gather_rays::{GatherOptions, GatherRays, Method, RayCounts, Strata, Visits};
 pub use photon_paths::{PathPhoton, PhotonPaths};
 pub use ray_plan::{Piece, RayPlan};
 pub use reflection::Spread;

@@ -15,7 +15,9 @@ use pm_tools::image::{Format, Picture};
 use pm_tools::order::Generative;
 use pm_tools::parallel::in_order;
 use pm_tools::setting::{CameraArgs, SceneArgs, header};
-use pm_tools::transport::{CacheOptions, CacheRecords, GatherOptions, GatherRays, Method, RayCounts, Spread, Strata};
+use pm_tools::transport::{
+    CacheOptions, CacheRecords, GatherOptions, GatherRays, Method, RayCounts, Spread, Strata, Visits,
+};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -123,6 +125,9 @@ const MOST_GATHERS: u64 = 1 << 24;
 
 /// Gather rays that are cast as one piece of work, at least.
 const WORTH_A_JOB: u64 = 2000;
+/// Passes over a tile that are one, so that its eye rays are not cast for each of them; and most rays.
+const PASSES_A_JOB: u64 = 16;
+const MOST_A_JOB: u64 = 1 << 16;
 
 fn least_distance(text: &str) -> Result<LeastDistance, String> {
     match text.parse::<f32>() {
@@ -258,9 +263,15 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut jobs = part.jobs(order, size);
     // A span of few rays is not worth a message to a thread and back.
     let rays_a_pixel = u64::from(args.samples) * u64::from(gathers.div_ceil(order.bins()));
+    let worth = match order {
+        Generative::DirectionBinned { tile, .. } => {
+            (PASSES_A_JOB * rays_a_pixel).saturating_mul(u64::from(tile).pow(2)).clamp(WORTH_A_JOB, MOST_A_JOB)
+        }
+        _ => WORTH_A_JOB,
+    };
     let some_jobs = || {
         let (mut some, mut rays) = (vec![], 0);
-        while rays < WORTH_A_JOB {
+        while rays < worth {
             let Some(job) = jobs.next() else { break };
             let pixels = u64::from(job.span.columns.end - job.span.columns.start);
             rays += job.rays.as_ref().map_or(pixels * rays_a_pixel, |_| job.size());
@@ -268,7 +279,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         }
         anyhow::Ok(Some(some).filter(|some| !some.is_empty()))
     };
-    let cast = |Job { span, rays: some, .. }: &Job| {
+    let cast = |visits: &mut Visits<'_>, Job { span, rays: some, .. }: &Job| {
         let mut cast = Cast { queries: vec![], light: vec![], counts: RayCounts::default() };
         let mut too_bright = None;
         let mut left = some.clone();
@@ -284,9 +295,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             };
             let (at, query) = ([x, span.row], |query| cast.queries.push(query));
             match &mut left {
-                None => rays.pixel(at, span.pass, cache.as_ref(), query, light, &mut cast.counts),
+                None => visits.pixel(at, span.pass, cache.as_ref(), query, light, &mut cast.counts),
                 Some(left) if left.is_empty() => break,
-                Some(left) => rays.some_of_pixel(at, span.pass, left, query, &mut cast.counts),
+                Some(left) => visits.some_of_pixel(at, span.pass, left, query, &mut cast.counts),
             }
         }
         too_bright.map_or(Ok(cast), Err)
@@ -294,7 +305,10 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     in_order(
         args.common.threads(),
         some_jobs,
-        |jobs: Vec<Job>| jobs.into_iter().map(|job| (cast(&job), job)).collect::<Vec<_>>(),
+        |jobs: Vec<Job>| {
+            let mut visits = rays.visits();
+            jobs.into_iter().map(|job| (cast(&mut visits, &job), job)).collect::<Vec<_>>()
+        },
         |casts| {
             for (cast, job) in casts {
                 let cast = cast?;

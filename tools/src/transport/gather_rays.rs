@@ -18,6 +18,7 @@ use crate::scene::{Camera, Scene};
 use glam::Vec3;
 use pm_formats::{Photon, Query};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// How queries are made.
@@ -68,7 +69,7 @@ pub enum Strata {
 pub struct RayCounts {
     /// Eye rays, with their reflections and refractions.
     pub eye: u64,
-    /// Eye rays that were cast again for a later pass over their pixel.
+    /// Eye rays that a later pass over their pixel asks for again, whether they were remembered or not.
     pub eye_again: u64,
     /// Points seen where light is spread.
     pub seen: u64,
@@ -173,15 +174,13 @@ impl<'a> GatherRays<'a> {
         self.guide.as_ref().map_or(0, Guide::len)
     }
 
-    /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
-    /// and light that needs no query (what is emitted or, with final gather, comes straight from the lights) to `light`.
-    ///
-    /// A query's sample number is `(leaf * samples + sample) * gathers + stratum`.
-    ///
-    /// With cached irradiance the points that it serves are not gathered for; the records that were placed at this pixel
-    /// are.
-    ///
-    /// `pass` tells which of the rays are wanted now; light that needs no gather ray comes with a pixel's first bin.
+    /// Visits of pixels, which remember what is seen through those that they come to again.
+    #[must_use]
+    pub fn visits(&self) -> Visits<'_> {
+        Visits { rays: self, seen: HashMap::new() }
+    }
+
+    /// A single visit: see [`Visits::pixel`].
     pub fn pixel(
         &self,
         at: [u32; 2],
@@ -191,26 +190,7 @@ impl<'a> GatherRays<'a> {
         light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let mut all = 0..u64::MAX;
-        self.visit(at, Part { pass: pass.into(), rays: &mut all }, cache, query, light, counts);
-    }
-
-    /// Casts some of the gather rays of one pixel and pass: those with numbers in `rays`, counted from the first that
-    /// [`pixel`](Self::pixel) would cast. Then takes their number off both ends of `rays`, which so goes on at the pixel
-    /// that comes next. No light is asked for.
-    ///
-    /// The eye rays are counted as cast again: it takes all of them to know the numbers.
-    pub fn some_of_pixel(
-        &self,
-        at: [u32; 2],
-        pass: Pass,
-        rays: &mut Range<u64>,
-        query: impl FnMut(Query),
-        counts: &mut RayCounts,
-    ) {
-        let mut now = RayCounts::default();
-        self.visit(at, Part { pass, rays }, None, query, |_| {}, &mut now);
-        *counts += RayCounts { eye: 0, eye_again: now.eye + now.eye_again, seen: 0, ..now };
+        self.visits().pixel(at, pass, cache, query, light, counts);
     }
 
     /// Casts the eye rays of a pixel alone: the number of points seen directly, and of those behind specular surfaces.
@@ -225,67 +205,6 @@ impl<'a> GatherRays<'a> {
     /// Number of gather rays that a point seen sends into each bin.
     pub(super) fn rays_by_bin(&self) -> Vec<u64> {
         self.bins.iter().map(|strata| strata.len() as u64).collect()
-    }
-
-    fn visit(
-        &self,
-        [x, y]: [u32; 2],
-        part: Part<'_>,
-        cache: Option<&CacheRecords>,
-        mut query: impl FnMut(Query),
-        mut light: impl FnMut(Vec3),
-        counts: &mut RayCounts,
-    ) {
-        let pixel = y * self.eye.camera.size()[0] + x;
-        let Part { pass, rays } = part;
-        let Pass { leaves, bin } = pass;
-        // Light seen by eye belongs to the first of the passes that visit every pixel.
-        let first_pass = pass.is_first();
-        let mut found = vec![];
-        let mut eye_light = |radiance: Vec3| {
-            if first_pass {
-                light(radiance);
-            }
-        };
-        let eye_rays = self.eye.see(&self.stage, x, y, &mut found, &mut eye_light);
-        *(if first_pass { &mut counts.eye } else { &mut counts.eye_again }) += eye_rays;
-        let wanted = |behind_specular: bool| match leaves {
-            Leaves::All => true,
-            Leaves::Direct => !behind_specular,
-            Leaves::BehindSpecular => behind_specular,
-        };
-        for leaf in &found {
-            if wanted(leaf.behind_specular) {
-                counts.seen += u64::from(bin == 0);
-                match self.options.method {
-                    Method::FinalGather if cache.is_some() && self.caches(leaf) => {
-                        if bin == 0 {
-                            self.direct_light(pixel, leaf, &mut light);
-                        }
-                    }
-                    Method::FinalGather => {
-                        if bin == 0 {
-                            self.direct_light(pixel, leaf, &mut light);
-                        }
-                        let wanted = take(rays, self.bins[bin as usize].len());
-                        if !wanted.is_empty() {
-                            let strata = self.strata_of(pixel, leaf, bin);
-                            self.gather(pixel, leaf, &strata[wanted], &mut query, &mut light, counts);
-                        }
-                    }
-                    Method::DirectVisualisation => {
-                        if bin == 0 && !take(rays, 1).is_empty() {
-                            query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
-                        }
-                    }
-                }
-            }
-        }
-        if let Some(cache) = cache {
-            for (record, _) in cache.of_pixel(pixel).filter(|&(_, behind_specular)| wanted(behind_specular)) {
-                cache.gather(self, record, &self.bins[bin as usize], &mut query, counts);
-            }
-        }
     }
 
     /// Light that comes to a point seen straight from the lamps.
@@ -434,6 +353,125 @@ impl<'a> GatherRays<'a> {
             direction = way.direction;
         }
         None
+    }
+}
+
+/// Visits of pixels, pass after pass. What is seen through a pixel is remembered, since an order with a pass for each bin of
+/// the hemisphere comes to it a hundred times; the memory grows with the pixels visited.
+pub struct Visits<'a> {
+    rays: &'a GatherRays<'a>,
+    /// By pixel: the points seen, and the eye rays that found them.
+    seen: HashMap<u32, (Vec<Leaf>, u64)>,
+}
+
+impl Visits<'_> {
+    /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
+    /// and light that needs no query (what is emitted or, with final gather, comes straight from the lights) to `light`.
+    ///
+    /// A query's sample number is `(leaf * samples + sample) * gathers + stratum`.
+    ///
+    /// With cached irradiance the points that it serves are not gathered for; the records that were placed at this pixel
+    /// are.
+    ///
+    /// `pass` tells which of the rays are wanted now; light that needs no gather ray comes with a pixel's first bin.
+    pub fn pixel(
+        &mut self,
+        at: [u32; 2],
+        pass: impl Into<Pass>,
+        cache: Option<&CacheRecords>,
+        query: impl FnMut(Query),
+        light: impl FnMut(Vec3),
+        counts: &mut RayCounts,
+    ) {
+        let mut all = 0..u64::MAX;
+        self.visit(at, Part { pass: pass.into(), rays: &mut all }, cache, query, light, counts);
+    }
+
+    /// Casts some of the gather rays of one pixel and pass: those with numbers in `rays`, counted from the first that
+    /// [`pixel`](Self::pixel) would cast. Then takes their number off both ends of `rays`, which so goes on at the pixel
+    /// that comes next. No light is asked for.
+    ///
+    /// The eye rays are counted as cast again: it takes all of them to know the numbers.
+    pub fn some_of_pixel(
+        &mut self,
+        at: [u32; 2],
+        pass: Pass,
+        rays: &mut Range<u64>,
+        query: impl FnMut(Query),
+        counts: &mut RayCounts,
+    ) {
+        let mut now = RayCounts::default();
+        self.visit(at, Part { pass, rays }, None, query, |_| {}, &mut now);
+        *counts += RayCounts { eye: 0, eye_again: now.eye + now.eye_again, seen: 0, ..now };
+    }
+
+    fn visit(
+        &mut self,
+        [x, y]: [u32; 2],
+        part: Part<'_>,
+        cache: Option<&CacheRecords>,
+        mut query: impl FnMut(Query),
+        mut light: impl FnMut(Vec3),
+        counts: &mut RayCounts,
+    ) {
+        let rays_of = self.rays;
+        let pixel = y * rays_of.eye.camera.size()[0] + x;
+        let Part { pass, rays } = part;
+        let Pass { leaves, bin } = pass;
+        // Light seen by eye belongs to the first of the passes that visit every pixel.
+        let first_pass = pass.is_first();
+        let mut eye_light = |radiance: Vec3| {
+            if first_pass {
+                light(radiance);
+            }
+        };
+        if first_pass {
+            // Light is to be told even if a pixel should be begun twice.
+            self.seen.remove(&pixel);
+        }
+        let (found, eye_rays) = self.seen.entry(pixel).or_insert_with(|| {
+            let mut found = vec![];
+            let eye_rays = rays_of.eye.see(&rays_of.stage, x, y, &mut found, &mut eye_light);
+            (found, eye_rays)
+        });
+        *(if first_pass { &mut counts.eye } else { &mut counts.eye_again }) += *eye_rays;
+        let wanted = |behind_specular: bool| match leaves {
+            Leaves::All => true,
+            Leaves::Direct => !behind_specular,
+            Leaves::BehindSpecular => behind_specular,
+        };
+        for leaf in &*found {
+            if wanted(leaf.behind_specular) {
+                counts.seen += u64::from(bin == 0);
+                match rays_of.options.method {
+                    Method::FinalGather if cache.is_some() && rays_of.caches(leaf) => {
+                        if bin == 0 {
+                            rays_of.direct_light(pixel, leaf, &mut light);
+                        }
+                    }
+                    Method::FinalGather => {
+                        if bin == 0 {
+                            rays_of.direct_light(pixel, leaf, &mut light);
+                        }
+                        let wanted = take(rays, rays_of.bins[bin as usize].len());
+                        if !wanted.is_empty() {
+                            let strata = rays_of.strata_of(pixel, leaf, bin);
+                            rays_of.gather(pixel, leaf, &strata[wanted], &mut query, &mut light, counts);
+                        }
+                    }
+                    Method::DirectVisualisation => {
+                        if bin == 0 && !take(rays, 1).is_empty() {
+                            query(query_at(&leaf.point, leaf.view, pixel, leaf.number, leaf.share));
+                        }
+                    }
+                }
+            }
+        }
+        if let Some(cache) = cache {
+            for (record, _) in cache.of_pixel(pixel).filter(|&(_, behind_specular)| wanted(behind_specular)) {
+                cache.gather(rays_of, record, &rays_of.bins[bin as usize], &mut query, counts);
+            }
+        }
     }
 }
 
