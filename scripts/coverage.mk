@@ -7,12 +7,12 @@ COVERAGE_SEEDS := 1000
 COVERAGE_ORDERS := scanline tiled binned binned-hashed tiled-hilbert
 COVERAGE_SIZE := --size 64x64
 
-# Windows of searches and their warm-up. Of tiled-hilbert, windows are whole tiles, and the picture is one of many tiles.
+# Windows of searches and their warm-up. Of tiled-hilbert, the picture is one of many tiles.
 COVERAGE_scanline := --window 100 --warm-up 40
 COVERAGE_tiled := --window 100 --warm-up 40
 COVERAGE_binned := --window 64 --warm-up 64
 COVERAGE_binned-hashed := --window 64 --warm-up 48
-COVERAGE_tiled-hilbert := --share 0.049
+COVERAGE_tiled-hilbert := --window 400 --warm-up 600
 COVERAGE_SIZE_tiled-hilbert := --size 200x200 --tile 10
 
 coverage: out/coverage.csv ## How often intervals of samples hold the truth, over 1,000 seeds: out/coverage.csv
