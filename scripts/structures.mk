@@ -5,7 +5,7 @@ STRUCTURE_SHARE ?= 16
 STRUCTURE_SIZE ?= 512x512
 export STRUCTURE_SHARE STRUCTURE_SIZE
 
-structures: out/structures/scanline.svg out/structures/hilbert.svg out/structures/table.txt ## Every photon map: Figure 8 and Table 1 of the paper (-j2: half an hour)
+structures: out/structures/scanline.svg out/structures/hilbert.svg out/structures/table.txt ## Every photon map: Figure 8 and Table 1 of the paper (-j2: twenty minutes)
 	@cat out/structures/table.txt
 
 out/structures/table.txt: out/structures.csv scripts/structures-table.awk
