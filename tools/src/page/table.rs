@@ -39,14 +39,14 @@ pub(super) fn html(
     let sheet = rows(block, sheets)?;
     let columns = columns(block, &sheet)?;
 
-    let mut html = format!("<figure class=\"table\"{}>\n{text}", id_attribute(block.id.as_deref()));
+    let mut html = format!("<figure class=\"table\"{}>\n", id_attribute(block.id.as_deref()));
+    if !title.is_empty() {
+        let _ = writeln!(html, "<figcaption>{title}</figcaption>");
+    }
+    html += text;
     let name = if plain_title.is_empty() { "Table" } else { plain_title };
     let _ = writeln!(html, "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">", escaped(name));
-    html += "<table>\n";
-    if !title.is_empty() {
-        let _ = writeln!(html, "<caption>{title}</caption>");
-    }
-    html += "<thead><tr>";
+    html += "<table>\n<thead><tr>";
     for column in &columns {
         let class = if column.of_numbers { " class=\"n\"" } else { "" };
         let _ = write!(html, "<th scope=\"col\"{class}>{}</th>", escaped(&column.heading));
