@@ -15,6 +15,8 @@ struct Column {
     format: Option<Format>,
     /// To the right, as numbers are?
     of_numbers: bool,
+    /// Text of several lines, which needs room?
+    long: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -22,6 +24,9 @@ enum Kind {
     Field(usize),
     Ratio(usize, usize),
 }
+
+/// Letters of a field from which on its column is given room.
+const LONG: usize = 60;
 
 /// What stands where there is nothing.
 const NOTHING: &str = "–";
@@ -59,6 +64,7 @@ pub(super) fn html(
             // What stands in front names the row.
             html += &match (at, column.of_numbers) {
                 (0, false) => format!("<th scope=\"row\">{field}</th>"),
+                (_, false) if column.long => format!("<td class=\"long\">{field}</td>"),
                 (_, false) => format!("<td>{field}</td>"),
                 (_, true) => format!("<td class=\"n\">{field}</td>"),
             };
@@ -155,7 +161,8 @@ fn column(shown: &Shown, sheet: &Sheet) -> Result<Column, PageError> {
         }
     };
     let error = full.error.as_deref().map(|name| sheet.column(name)).transpose()?;
-    Ok(Column { heading: full.heading.clone().unwrap_or(name), kind, error, format, of_numbers })
+    let long = matches!(kind, Kind::Field(at) if sheet.rows.iter().any(|row| row[at].chars().count() >= LONG));
+    Ok(Column { heading: full.heading.clone().unwrap_or(name), kind, error, format, of_numbers, long })
 }
 
 impl Column {
