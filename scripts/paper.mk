@@ -5,7 +5,7 @@ PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 st
 # Of Figures 1 and 4; scripts/pictures.mk renders them.
 PAPER_PICTURES := $(patsubst %,out/pictures/%.png,cornell fractal columns columns-cached)
 
-paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: half an hour)
+paper: out/paper/report.html ## The paper's tables and figures again, sampled, in one page: out/paper/report.html (-j2: a quarter of an hour)
 	@echo "Report: $<"
 .PHONY: paper
 
@@ -63,7 +63,7 @@ out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=
 # The same in full, in a folder of its own where nothing is cut into windows or thinned; what there is stays, so that it may be
 # stopped and go on.
 EXACT := out/exact
-paper-exact: programs ## The same with nothing sampled: some hours, point by point; may be stopped and go on
+paper-exact: programs ## The same with nothing sampled: a working day, point by point; may be stopped and go on
 	@mkdir -p $(EXACT)/scripts/sweeps
 	@cp -pr Makefile scenes $(EXACT) && cp -p $(wildcard scripts/*.*) $(EXACT)/scripts
 	@for table in scripts/sweeps/*.csv; do \
