@@ -23,13 +23,10 @@ $at["series"] == "cache holds the map" { next }
 }
 
 END {
-    printf "Least traffic in GB by all bytes on chip:\n%-8s %-8s", "photons", "records"
-    for (i = 1; i <= sizes; i++) printf "  %-22s", name[i]
-    print ""
+    printf "Least traffic by all bytes on chip:\n%8s  %-8s %8s %9s  %s\n", "photons", "records", "on chip", "GB", "order"
     for (k = 1; k <= number; k++) {
         split(keys[k], part, SUBSEP)
-        printf "%-8s %-8s", part[1], part[2]
-        for (i = 1; i <= sizes; i++) printf "  %-22s", sprintf("%.3f %s", least[keys[k], i] / 1e9, order[keys[k], i])
-        print ""
+        for (i = 1; i <= sizes; i++) if ((keys[k], i) in least)
+            printf "%8s  %-8s %8s %9.3f  %s\n", part[1], part[2], name[i], least[keys[k], i] / 1e9, order[keys[k], i]
     }
 }
