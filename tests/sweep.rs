@@ -78,6 +78,33 @@ fn a_table_becomes_a_row_for_each_point_and_a_rerun_makes_what_is_missing() {
 }
 
 #[test]
+fn queries_that_others_begin_with_are_cast_once_and_kept() {
+    let folder = workshop();
+    let table = "point,order,photons,queries\n\
+        a,tiled,-n 500,--size 16x16 --gathers 4 || pm-sample -q --queries 2\n\
+        b,tiled,-n 500,--size 16x16 --gathers 4 || pm-sample -q --queries 3 | pm-reorder -q hilbert\n\
+        c,tiled,-n 500,--size 16x16 --gathers 4 | pm-sample -q --queries 5\n";
+    folder.write("my.csv", table);
+    let outcome = make(&folder, "sweep SWEEP=my.csv");
+    assert!(outcome.status.success(), "{}", said(&outcome));
+    // Those that keep them share them, the word `tiled` among their options; the third casts its own.
+    assert_eq!(said(&outcome).matches("pm-queries -q").count(), 2, "{}", said(&outcome));
+    assert!(folder.path("out/streams/size-16x16-gathers-4-order-tiled.pmq").exists());
+    // The row is that of one pipe, but for the names of the files in its history.
+    let pipe = "export PATH=$PWD/target/release:$PATH; pm-queries -q --size 16x16 --gathers 4 --order tiled | \
+        pm-sample -q --queries 3 | pm-reorder -q hilbert | pm-gather -q out/streams/n-500.pmp | pm-cachesim -q --format csv";
+    let piped = Command::new("bash").args(["-c", pipe]).current_dir(folder.path(".")).output().expect("bash runs");
+    let row = |csv: Vec<u8>| {
+        let csv = String::from_utf8(csv).unwrap();
+        let row = csv.lines().nth(1).expect("a row");
+        let history = row.find("pm-queries").min(row.find("pm-photons"));
+        row[..history.expect("a history")].to_owned()
+    };
+    assert_eq!(row(folder.read("out/my/b.csv")), row(piped.stdout));
+    assert_ne!(row(folder.read("out/my/a.csv")), row(folder.read("out/my/b.csv")));
+}
+
+#[test]
 fn a_launcher_that_does_nothing_and_says_0_is_not_believed() {
     let folder = workshop();
     for goal in ["sweep SWEEP=my.csv", "run"] {
