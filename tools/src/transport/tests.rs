@@ -1,7 +1,7 @@
 //! Do rays hit what they should, and is light neither lost nor made?
 
 use super::*;
-use crate::order::Leaves;
+use crate::order::{Generative, Leaves};
 use crate::random::Random;
 use crate::scene::{Camera, CameraOverrides, LoadOptions, Scene};
 use glam::{DVec3, Vec3};
@@ -286,6 +286,31 @@ fn rays_with(scene: &Scene, camera: Camera, options: GatherOptions) -> (Vec<pm_f
         assert_eq!(counts.gather - counts.gather_lost, queries.len() as u64);
     }
     (queries, light, camera)
+}
+
+#[test]
+fn a_pixel_that_is_remembered_is_seen_as_at_first() {
+    // The box with a mirror and a glass sphere, in passes that come to each pixel again, and from the second one on.
+    let (scene, path) = shipped("cornell.obj");
+    let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
+    let camera = Camera::find(&[path], &scene.bounds, &overrides).unwrap().camera;
+    let rays = GatherRays::new(&scene, camera, GatherOptions { gathers: 4, ..OPTIONS }).with_bins(4);
+    let order = Generative::DirectionBinned { tile: 32, bins: 4 };
+    for first in [0, 1] {
+        let mut visits = rays.visits();
+        for pass in order.passes().skip(first) {
+            let (mut remembered, mut afresh) =
+                ((vec![], vec![], RayCounts::default()), (vec![], vec![], RayCounts::default()));
+            for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {
+                let (queries, light, counts) = &mut remembered;
+                visits.pixel([x, y], pass, None, |query| queries.push(query), |l| light.push(l), counts);
+                let (queries, light, counts) = &mut afresh;
+                rays.pixel([x, y], pass, None, |query| queries.push(query), |l| light.push(l), counts);
+            }
+            assert_eq!(remembered, afresh, "{pass:?}");
+            assert!(!afresh.0.is_empty() && (pass.bin > 0 || !afresh.1.is_empty()));
+        }
+    }
 }
 
 #[test]
