@@ -1,10 +1,10 @@
 # From joined rows of a sweep (frontier, full) to the points of the frontier:
 #   awk -f scripts/frontier.awk out/full.csv out/frontier.csv
 # On chip is the cache, what the order needs and the cache of results. A cache larger than the map holds the map; of those
-# only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared nothing,
-# so that its map and result traffic are at most so large. `best` is a point that no other of its series, with the same record,
-# beats on both axes. What an earlier table has in full, with the same photons, is not taken from a later one, nor is what is
-# thinned of an order that it has.
+# only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared nothing
+# but the first touch of a line, so that its map and result traffic are at most so large. `best` is a point that no other of
+# its series, with the same record, beats on both axes. What an earlier table has in full, with the same photons, is not taken
+# from a later one, nor is what is thinned of an order that it has.
 
 BEGIN {
     FS = ","
@@ -30,7 +30,10 @@ FNR == 1 { file++; split("", at); for (i = 1; i <= NF; i++) at[$i] = i; last = "
     if (holds) next
     # Of the whole image, by the share that was simulated.
     times = $at["share"]; sub(/^1\//, "", times)
-    map = ($at["bytes_fetched"] + $at["bytes_written_back"]) * times
+    # No line is fetched for the first time twice.
+    first = $at["compulsory"] * times
+    if (first > $at["blocks"]) first = $at["blocks"]
+    map = ((($at["fetches"] - $at["compulsory"]) * times + first) * $at["line_bytes"]) + $at["bytes_written_back"] * times
     query = $at["query_bytes"] * times; result = $at["result_bytes"] * times
     rows++
     line[rows] = key "," $at["share"] "," $at["found"] "," $at["cache_bytes"] "," $at["order_bytes_on_chip"]
