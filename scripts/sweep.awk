@@ -163,13 +163,12 @@ function queries_name(scene, queries, photons) {
 }
 
 # The rule of queries, and of those that they begin with if these are kept.
-function queries_rule(file, needs, scene, queries, photons, photons_file,   at, first) {
+function queries_rule(file, needs, scene, queries, photons, photons_file,   at, first, kept) {
     if (at = index(queries, "||")) {
         first = substr(queries, 1, at - 1)
-        queries = substr(queries, at + 2)
-        at = queries_name(scene, first, photons)
-        queries_rule(at, needs, scene, first, photons, photons_file)
-        rule(file, " " at needs, "< " at queries)
+        kept = queries_name(scene, first, photons)
+        queries_rule(kept, needs, scene, first, photons, photons_file)
+        rule(file, " " kept needs, "< " kept replace(substr(queries, at + 2), "{photons}", photons_file))
     } else stream_rule(file, needs, "pm-queries", scene, replace(queries, "{photons}", photons_file))
 }
 

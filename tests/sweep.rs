@@ -83,7 +83,8 @@ fn queries_that_others_begin_with_are_cast_once_and_kept() {
     let table = "point,order,photons,queries\n\
         a,tiled,-n 500,--size 16x16 --gathers 4 || pm-sample -q --queries 2\n\
         b,tiled,-n 500,--size 16x16 --gathers 4 || pm-sample -q --queries 3 | pm-reorder -q hilbert\n\
-        c,tiled,-n 500,--size 16x16 --gathers 4 | pm-sample -q --queries 5\n";
+        c,tiled,-n 500,--size 16x16 --gathers 4 | pm-sample -q --queries 5\n\
+        d,tiled,-n 500,--size 16x16 --gathers 4 || pm-reorder -q leaf --photons {photons}\n";
     folder.write("my.csv", table);
     let outcome = make(&folder, "sweep SWEEP=my.csv");
     assert!(outcome.status.success(), "{}", said(&outcome));
