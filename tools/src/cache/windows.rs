@@ -173,7 +173,7 @@ impl Windows {
         let share = share.filter(|&share| share > 0.0 && share <= 1.0);
         let bytes: u128 = self.regions.iter().map(|region| u128::from(region.size)).sum();
         // What a window without queries counts.
-        let nothing = self.empty().finish();
+        let nothing = self.simulation.finish();
         let row = |(cache, nothing): (Cache, Row)| {
             let nothing = Counts::of(nothing, vec![0; self.regions.len()], true);
             let mut counts = vec![nothing; number as usize];

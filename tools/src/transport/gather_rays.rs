@@ -180,19 +180,6 @@ impl<'a> GatherRays<'a> {
         Visits { rays: self, seen: HashMap::new() }
     }
 
-    /// A single visit: see [`Visits::pixel`].
-    pub fn pixel(
-        &self,
-        at: [u32; 2],
-        pass: impl Into<Pass>,
-        cache: Option<&CacheRecords>,
-        query: impl FnMut(Query),
-        light: impl FnMut(Vec3),
-        counts: &mut RayCounts,
-    ) {
-        self.visits().pixel(at, pass, cache, query, light, counts);
-    }
-
     /// Casts the eye rays of a pixel alone: the number of points seen directly, and of those behind specular surfaces.
     pub(super) fn points_seen(&self, [x, y]: [u32; 2], counts: &mut RayCounts) -> [u64; 2] {
         let mut found = vec![];

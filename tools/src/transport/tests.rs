@@ -279,7 +279,14 @@ fn rays_with(scene: &Scene, camera: Camera, options: GatherOptions) -> (Vec<pm_f
     for y in 0..20 {
         for x in 0..24 {
             let pixel = (y * 24 + x) as usize;
-            rays.pixel([x, y], Leaves::All, None, |query| queries.push(query), |l| light[pixel] += l, &mut counts);
+            rays.visits().pixel(
+                [x, y],
+                Leaves::All,
+                None,
+                |query| queries.push(query),
+                |l| light[pixel] += l,
+                &mut counts,
+            );
         }
     }
     if options.method == Method::FinalGather {
@@ -305,7 +312,7 @@ fn a_pixel_that_is_remembered_is_seen_as_at_first() {
                 let (queries, light, counts) = &mut remembered;
                 visits.pixel([x, y], pass, None, |query| queries.push(query), |l| light.push(l), counts);
                 let (queries, light, counts) = &mut afresh;
-                rays.pixel([x, y], pass, None, |query| queries.push(query), |l| light.push(l), counts);
+                rays.visits().pixel([x, y], pass, None, |query| queries.push(query), |l| light.push(l), counts);
             }
             assert_eq!(remembered, afresh, "{pass:?}");
             assert!(!afresh.0.is_empty() && (pass.bin > 0 || !afresh.1.is_empty()));

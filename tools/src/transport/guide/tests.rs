@@ -169,7 +169,7 @@ fn of_the_patch(rays: &GatherRays<'_>, counts: &mut RayCounts) -> Vec<f64> {
                     pixels[query.pixel as usize] += f64::from(query.weight[0]);
                 }
             };
-            rays.pixel([x, y], Leaves::All, None, query, |_| {}, counts);
+            rays.visits().pixel([x, y], Leaves::All, None, query, |_| {}, counts);
         }
     }
     pixels
@@ -221,7 +221,7 @@ fn without_photons_nothing_changes() {
         let rays = GatherRays::new(&scene, camera, options);
         let rays = guide.into_iter().fold(rays, GatherRays::guided_by);
         let mut queries = vec![];
-        rays.pixel([12, 7], Leaves::All, None, |query| queries.push(query), |_| {}, &mut RayCounts::default());
+        rays.visits().pixel([12, 7], Leaves::All, None, |query| queries.push(query), |_| {}, &mut RayCounts::default());
         queries
     };
     assert_eq!(queries(None), queries(Some(&[])));
