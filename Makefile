@@ -114,11 +114,11 @@ check: ## Formatting and lints
 
 stability: ## Photon maps under stress: out/stability.txt, a table of structures and what breaks them
 	mkdir -p out
-	PM_STABILITY_TABLE=$(CURDIR)/out/stability.txt $(CARGO) test -q -p pm-tools --release --lib stability
+	PM_STABILITY_TABLE=$(CURDIR)/out/stability.txt $(CARGO) test -q -p pm-maps --release --lib stability
 	@cat out/stability.txt
 
 bench: ## Speed, as ratios measured side by side
-	$(CARGO) bench -p pm-tools
+	$(CARGO) bench -p pm-programs
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man

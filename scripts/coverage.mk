@@ -25,7 +25,7 @@ out/coverage/map.pmp: | programs
 
 out/coverage/coverage: | programs
 	mkdir -p $(@D)
-	$(CARGO) build --release -p pm-tools --example coverage
+	$(CARGO) build --release -p pm-programs --example coverage
 	cp $(BIN)/examples/coverage $@
 
 COVERAGE_POINTS := $(COVERAGE_ORDERS:%=out/coverage/%.csv)

@@ -9,7 +9,7 @@ const FILES: [&str; 2] = ["accuracy.awk", "accuracy.csv"];
 fn folder() -> Folder {
     let folder = Folder::new();
     for name in FILES {
-        let path = format!("{}/../scripts/{name}", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../../scripts/{name}", env!("CARGO_MANIFEST_DIR"));
         folder.write(name, std::fs::read(path).expect("a script"));
     }
     folder.write(

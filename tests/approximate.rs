@@ -1,7 +1,7 @@
 //! Is the error of light that a report tells that of the pictures, where each pixel is one query?
 
 use crate::support::Folder;
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 use std::collections::HashMap;
 
 /// The picture that a map gives, and the numbers of its report.
@@ -19,7 +19,7 @@ fn gathered(folder: &Folder, options: &str) -> (Vec<f64>, HashMap<String, f64>) 
 fn the_error_of_light_is_that_of_the_picture() {
     let folder = Folder::new();
     // No mirror and no glass, which would make two queries of one pixel.
-    let scene = format!("{}/../scenes/cornell-diffuse.obj", env!("CARGO_MANIFEST_DIR"));
+    let scene = format!("{}/../../scenes/cornell-diffuse.obj", env!("CARGO_MANIFEST_DIR"));
     folder.run(&format!("pm-photons {scene} -n 20000 -o map.pmp")).ok();
     folder.run(&format!("pm-queries {scene} --direct-visualisation --size 30x30 -o q.pmq")).ok();
     let (exact, report) = gathered(&folder, "");

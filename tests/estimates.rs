@@ -102,7 +102,7 @@ fn what_cannot_be_estimated_is_refused_by_name() {
 #[test]
 fn samples_are_put_together_until_the_interval_is_as_narrow_as_asked() {
     let folder = folder();
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../scripts/until.sh");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scripts/until.sh");
     let line = format!(
         "BIN=$(dirname $(command -v pm-cachesim)) {script} --pilot 20 --window 20 --warm-up 30 --queries '{SIZE}' \
          --gather map.pmp --cachesim '--cache 16K,full,128,lru'"

@@ -215,7 +215,7 @@ fn counts_equal_those_of_pycachesim() {
     folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
     folder.write("mixed.pmt", mixed_trace());
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".into());
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../scripts/pycachesim_counts.py");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scripts/pycachesim_counts.py");
     // What is last used in a set after a store is another matter there, so stores meet one way only.
     for (trace, cache, sets, ways, line) in [
         ("t.pmt", "2K,full,64,lru", 1, 32, 64),

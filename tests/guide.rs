@@ -4,7 +4,7 @@ use crate::cli::asked_wrongly;
 use crate::streams::records;
 use crate::support::Folder;
 use pm_formats::{BlockReader, Query};
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 
 /// Means over a picture of the light that gather rays bring, per seed.
 fn means(folder: &Folder, options: &str) -> Vec<f64> {

@@ -3,7 +3,7 @@
 use crate::streams::{Search, check, records, searches, sorted_records};
 use crate::support::{Folder, SMALL, same_bytes, same_text};
 use pm_formats::{Query, Tally};
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 use std::collections::BTreeMap;
 
 /// Orders in which `pm-queries` goes through the picture; the last tile is the whole of it.

@@ -3,7 +3,7 @@
 use crate::streams::records;
 use crate::support::Folder;
 use pm_formats::Photon;
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 use std::ops::Range;
 
 /// A shipped scene by its name, or one by the name of its file.
@@ -11,7 +11,7 @@ fn scene(name: &str) -> String {
     if name.ends_with(".obj") {
         return name.to_owned();
     }
-    format!("{}/../scenes/{name}.obj", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/../../scenes/{name}.obj", env!("CARGO_MANIFEST_DIR"))
 }
 
 /// A folder with `map.pmp`, photons of a scene.

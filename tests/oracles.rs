@@ -145,7 +145,7 @@ fn a_larger_cache_never_fetches_more() {
         let mut by_size: Vec<(u64, f64, f64)> = vec![];
         for (name, row) in &rows {
             let size = name.split(',').next().unwrap();
-            let size = size.parse::<pm_tools::size::Bytes>().unwrap().0;
+            let size = size.parse::<pm_size::Bytes>().unwrap().0;
             by_size.push((size, row["fetches"], row["compulsory"]));
         }
         by_size.sort_by_key(|row| row.0);

@@ -1,7 +1,7 @@
 //! Do the pictures of `pm-gather` say where they come from, and does exposure brighten previews alone?
 
 use crate::support::{Folder, same_bytes};
-use pm_tools::image::{Description, Picture};
+use pm_pictures::{Description, Picture};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -78,7 +78,7 @@ fn exposure_doubles_the_light_of_previews_alone() {
     let middle = 0.215_861;
     let pixels = (0..16 * 12).map(|i| [[0.5, 1.0, 2.0][i % 3] * middle; 3]).collect();
     let (mut bytes, base) = (vec![], Picture { size: [16, 12], pixels });
-    base.write(Path::new("base.exr"), &mut bytes, &[]).unwrap();
+    base.write(Path::new("base.exr"), &mut bytes, "pm", &[]).unwrap();
     folder.write("base.exr", bytes);
     // From the standard's curve, 255 (1.055 x^(1/2.4) - 0.055), for a quarter of the middle to four times it.
     let curve = [66, 92, 128, 176, 239];

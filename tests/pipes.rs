@@ -37,7 +37,7 @@ fn the_line_on_the_card_runs() {
 fn made_again(lines: &[&str]) -> String {
     let bring = |folder: &Folder| {
         for ending in ["obj", "mtl", "camera.toml"] {
-            let scene = format!("{}/../scenes/furnace.{ending}", env!("CARGO_MANIFEST_DIR"));
+            let scene = format!("{}/../../scenes/furnace.{ending}", env!("CARGO_MANIFEST_DIR"));
             folder.write(&format!("furnace.{ending}"), std::fs::read(scene).unwrap());
             folder.write(&format!("my furnace.{ending}"), folder.read(&format!("furnace.{ending}")));
         }

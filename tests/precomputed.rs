@@ -3,10 +3,10 @@
 use crate::streams::{check, records, searches};
 use crate::support::{Folder, SMALL, same_bytes};
 use pm_formats::{BlockReader, Query};
-use pm_tools::image::{Comparison, Picture};
+use pm_pictures::{Comparison, Picture};
 
 fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/../../scenes/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]

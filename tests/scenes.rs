@@ -1,8 +1,8 @@
 //! Do scenes that strangers bring, and those that `pm-scene` makes, mean what they should?
 
 use crate::support::{Folder, same_bytes};
-use pm_tools::scene::{LoadOptions, Material, MaterialKind, Scene};
-use pm_tools::transport::PhotonPaths;
+use pm_light::scene::{LoadOptions, Material, MaterialKind, Scene};
+use pm_light::transport::PhotonPaths;
 use std::path::{Path, PathBuf};
 
 fn load(path: &Path) -> Scene {
@@ -11,7 +11,7 @@ fn load(path: &Path) -> Scene {
 
 /// A file as an exporter writes it, from the folder `scenes` beside this one.
 fn exported(name: &str) -> Scene {
-    load(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tests/scenes").join(name))
+    load(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/scenes").join(name))
 }
 
 #[track_caller]
@@ -126,7 +126,7 @@ fn furnace(folder: &Folder, scale: f64, offset: f64) -> PathBuf {
 }
 
 fn crate_scenes(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Do noise and bias fall as fast as theory says, as rays and photons grow in number?
 
 use crate::support::Folder;
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 
 fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}.obj", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/../../scenes/{name}.obj", env!("CARGO_MANIFEST_DIR"))
 }
 
 /// The picture of gathered light alone.

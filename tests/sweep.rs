@@ -15,7 +15,7 @@ point,order,k,photons,queries,gather
 /// A folder in which `make` finds what it finds in the repository, and the programs that were just built.
 fn workshop() -> Folder {
     let folder = Folder::new();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the repository");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the repository");
     for name in ["Makefile", "scripts", "scenes"] {
         symlink(root.join(name), folder.path(name)).expect("a link");
     }

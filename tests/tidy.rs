@@ -4,38 +4,34 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Who may know whom, among the modules of `tools`: a new module needs a line here, a new acquaintance a word, and both a
-/// reason. `formats` stands for the crate `pm_formats`. Programs (`bin`) may know anything and nobody knows them.
+/// Who may know whom, among the crates in `tools`: a new crate needs a line here, a new acquaintance a word, and both a
+/// reason. `formats` stands for the crate `pm-formats`.
 const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("cache", &["size", "random", "spool", "statistics", "formats"]), // never photon_map: it sees accesses only
-    ("chart", &["size"]),
-    ("cli", &["formats"]),
-    ("curve", &["formats"]),
-    ("film", &[]),
-    ("foreign", &["cli", "spool", "formats"]), // never cache: it says what was accessed, not what that costs
-    ("gather", &["photon_map", "irradiance", "film", "parallel", "random", "formats"]),
-    ("hemisphere", &[]),
-    ("image", &["cli"]),
-    ("irradiance", &["hemisphere", "film", "formats"]),
-    ("make_scene", &["random", "scene"]), // scene only for what is copied from the built-in one
-    ("order", &["curve", "random", "formats"]),
-    ("page", &["chart", "size"]),
-    ("parallel", &[]),
-    ("photon_map", &["curve", "random", "formats"]), // never scene or transport: it is built from photons in a stream
     ("random", &[]),
-    ("report", &[]),
-    ("scene", &[]),
-    ("setting", &["cli", "scene", "formats"]),
+    ("parallel", &[]),
+    ("registry", &[]),
     ("size", &[]),
+    ("curves", &["formats"]),
     ("spool", &["formats"]),
-    ("statistics", &[]),
-    ("transport", &["scene", "irradiance", "hemisphere", "curve", "order", "parallel", "random", "formats"]),
-    ("view", &["cli", "image", "random", "report", "formats"]),
-    ("windows", &["random"]),
+    ("film", &["formats"]),
+    ("pictures", &[]),
+    ("sampling", &["random"]),
+    ("orders", &["curves", "random", "registry", "formats"]),
+    ("light", &["curves", "film", "orders", "parallel", "random", "registry", "formats"]),
+    // Never light: a map is built from photons in a stream.
+    ("maps", &["curves", "film", "parallel", "random", "registry", "formats"]),
+    // Never maps: a cache sees accesses only.
+    ("caches", &["random", "registry", "sampling", "size", "spool", "formats"]),
+    // Never caches: it says what was accessed, not what that costs.
+    ("exchange", &["random", "registry", "spool", "formats"]),
+    ("report", &["registry", "size"]),
 ];
 
-/// What tests may know beyond what their module may: where random numbers come from.
-const TESTS_MAY_KNOW: &[&str] = &["random"];
+/// The crate of the command line, which may know all others and which none may know.
+const PROGRAMS: &str = "programs";
+
+/// Packages that only the programs may depend on: the command line, the terminal, the process.
+const OF_THE_PROGRAMS: &[&str] = &["clap", "clap_complete", "clap_mangen", "indicatif", "ctrlc", "nix"];
 
 /// Files that may say `unsafe`, each with its reason.
 const UNSAFE: &[(&str, &str)] = &[];
@@ -44,7 +40,7 @@ const UNSAFE: &[(&str, &str)] = &[];
 const MOST_LINES: usize = 600;
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// The Rust files under a folder of the repository: path from the root, and text.
@@ -96,149 +92,66 @@ fn code(text: &str) -> String {
     code
 }
 
-/// The code before the first `#[cfg(test)]`, and from there on: by our custom tests stand at the foot.
-fn split_tests<'a>(path: &str, code: &'a str) -> (&'a str, &'a str) {
-    if path.ends_with("/tests.rs") || path.contains("/tests/") {
-        return ("", code);
-    }
-    code.split_at(code.find("#[cfg(test)]").unwrap_or(code.len()))
+/// Names of the packages that a crate's manifest lists, without those for its tests.
+fn dependencies(manifest: &str) -> BTreeSet<String> {
+    let text = fs::read_to_string(root().join(manifest)).unwrap_or_else(|error| panic!("{manifest}: {error}"));
+    let table: toml::Table = text.parse().unwrap_or_else(|error| panic!("{manifest}: {error}"));
+    table.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys).cloned().collect()
 }
 
-/// Modules of ours that a piece of code names: first words after `crate::` or `pm_tools::`, and `formats`.
-fn known(code: &str) -> BTreeSet<String> {
-    let mut known = BTreeSet::new();
-    for prefix in ["crate::", "pm_tools::"] {
-        for (at, _) in code.match_indices(prefix) {
-            let rest = &code[at + prefix.len()..];
-            // `crate::{a::X, b}`: the first word of each branch.
-            let branches: Vec<&str> = match rest.strip_prefix('{') {
-                Some(group) => top_level(group),
-                None => vec![rest],
-            };
-            for branch in branches {
-                let word: String =
-                    branch.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                known.insert(word);
-            }
-        }
-    }
-    if code.contains("pm_formats") {
-        known.insert("formats".into());
-    }
-    known.remove("");
-    known
-}
-
-/// The branches of a group of imports, up to its closing brace.
-fn top_level(group: &str) -> Vec<&str> {
-    let (mut branches, mut depth, mut from) = (vec![], 0, 0);
-    for (at, letter) in group.char_indices() {
-        match letter {
-            '{' => depth += 1,
-            '}' if depth == 0 => {
-                branches.push(&group[from..at]);
-                break;
-            }
-            '}' => depth -= 1,
-            ',' if depth == 0 => {
-                branches.push(&group[from..at]);
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    branches
-}
-
-/// The module of `tools` that a file belongs to: `cache` for `tools/src/cache.rs` and `tools/src/cache/lines.rs`.
-fn module(path: &str) -> Option<&str> {
-    let rest = path.strip_prefix("tools/src/")?;
-    let first = rest.split('/').next().expect("split gives at least one");
-    Some(first.strip_suffix(".rs").unwrap_or(first)).filter(|module| !["lib", "bin"].contains(module))
+/// The crates in `tools`.
+fn crates() -> BTreeSet<String> {
+    let entries = fs::read_dir(root().join("tools")).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let crates = entries.filter(|path| path.join("Cargo.toml").exists());
+    crates.map(|path| path.file_name().expect("a name").to_string_lossy().into_owned()).collect()
 }
 
 #[test]
-fn modules_know_only_whom_they_may() {
-    let table: BTreeMap<&str, &[&str]> = MAY_KNOW.iter().copied().collect();
-    let mut faults = vec![];
-    let mut met = BTreeSet::new();
-    for (path, text) in sources("tools/src") {
-        let Some(module) = module(&path) else { continue };
-        let Some(may_know) = table.get(module) else {
-            faults.push(format!("{path}: module `{module}` has no line in MAY_KNOW"));
-            continue;
-        };
-        met.insert(module.to_owned());
-        let code = code(&text);
-        let (work, tests) = split_tests(&path, &code);
-        for (part, more) in [(work, &[][..]), (tests, TESTS_MAY_KNOW)] {
-            for other in known(part) {
-                let allowed = other == module || may_know.contains(&&*other) || more.contains(&&*other);
-                if !allowed {
-                    faults.push(format!("{path}: `{module}` must not know `{other}`"));
-                }
-            }
-        }
+fn crates_know_only_whom_they_may() {
+    let mut listed: BTreeSet<String> = MAY_KNOW.iter().map(|(name, _)| (*name).to_owned()).collect();
+    listed.insert(PROGRAMS.into());
+    assert_eq!(crates(), listed, "left: folders in tools, right: MAY_KNOW");
+    for (name, may_know) in MAY_KNOW {
+        let all = dependencies(&format!("tools/{name}/Cargo.toml"));
+        let ours: BTreeSet<&str> = all.iter().filter_map(|package| package.strip_prefix("pm-")).collect();
+        assert_eq!(ours, may_know.iter().copied().collect(), "left: {name}'s manifest, right: MAY_KNOW");
+        let theirs: Vec<_> = OF_THE_PROGRAMS.iter().filter(|package| all.contains(**package)).collect();
+        assert!(theirs.is_empty(), "{name} depends on {theirs:?}, which is for the programs");
     }
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
-    assert!(met.iter().eq(table.keys()), "MAY_KNOW has lines for modules that are gone");
+    let formats = dependencies("formats/Cargo.toml");
+    assert!(formats.iter().all(|package| !package.starts_with("pm-")), "formats knows none of ours");
+    assert!(OF_THE_PROGRAMS.iter().all(|package| !formats.contains(*package)));
+    assert!(dependencies("tools/programs/Cargo.toml").contains("clap"), "manifests are read as they are meant");
 }
 
 #[test]
-fn the_map_of_the_code_is_this_table() {
+fn arrows_go_one_way() {
+    // Each crate stands below all that it knows.
+    for (at, (name, may_know)) in MAY_KNOW.iter().enumerate() {
+        let above: Vec<&str> = MAY_KNOW[..at].iter().map(|(name, _)| *name).chain(["formats"]).collect();
+        assert!(may_know.iter().all(|known| above.contains(known)), "{name} knows one that stands below it");
+    }
+}
+
+#[test]
+fn the_code_map_says_the_same() {
     let readme = fs::read_to_string(root().join("tools/README.md")).expect("tools/README.md");
-    // Rows of modules: name, what it is about, whom it may know.
+    // Rows of three cells: name, what it is about, whom it may know.
     let rows = readme.lines().filter_map(|line| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let &[name, _, may_know] = &cells[..] else { return None };
         let name = name.strip_prefix('`')?.strip_suffix('`')?;
-        let mut known: BTreeSet<&str> = may_know.split('`').skip(1).step_by(2).collect();
-        if may_know.split(|c: char| !c.is_alphanumeric()).any(|word| word == "formats") {
-            known.insert("formats");
-        }
-        Some((name, known))
+        Some((name, may_know.split('`').skip(1).step_by(2).collect::<BTreeSet<&str>>()))
     });
-    let rows: BTreeMap<&str, BTreeSet<&str>> = rows.collect();
+    let rows: BTreeMap<&str, BTreeSet<&str>> = rows.filter(|(name, _)| *name != PROGRAMS).collect();
     let table = MAY_KNOW.iter().map(|(name, known)| (*name, known.iter().copied().collect())).collect();
     assert_eq!(rows, table, "left: tools/README.md, right: this file");
-
-    let library = fs::read_to_string(root().join("tools/src/lib.rs")).expect("tools/src/lib.rs");
-    let modules = library.lines().filter_map(|line| line.trim().strip_suffix(';')?.split_once("mod ")).map(|(_, m)| m);
-    for module in modules {
-        assert!(rows.contains_key(module), "module `{module}` of tools/src/lib.rs is not in tools/README.md");
-    }
-}
-
-#[test]
-fn formats_knows_nothing_of_the_tools() {
-    for (path, text) in sources("formats") {
-        assert!(!code(&text).contains("pm_tools"), "{path}");
-    }
-    let manifest = fs::read_to_string(root().join("formats/Cargo.toml")).unwrap();
-    assert!(!manifest.contains("pm-tools"));
-}
-
-#[test]
-fn imports_are_found_however_they_are_written() {
-    let words = |text: &str| known(&code(text)).into_iter().collect::<Vec<_>>();
-    assert_eq!(words("use crate::scene::Scene; // crate::cli"), ["scene"]);
-    assert_eq!(
-        words("use crate::{film, scene::{Camera, Scene}, size::Bytes};\nlet s = \"crate::cli\";"),
-        ["film", "scene", "size"]
-    );
-    assert_eq!(
-        words("let x = crate::cli::usage(\"a \\\" crate::view\"); pm_tools::order::f(); use pm_formats::End;"),
-        ["cli", "formats", "order"]
-    );
-    assert_eq!(split_tests("a/b.rs", "work #[cfg(test)] mod tests {}"), ("work ", "#[cfg(test)] mod tests {}"));
-    assert_eq!(module("tools/src/cache/lines.rs"), Some("cache"));
-    assert_eq!(module("tools/src/bin/pm-view.rs"), None);
 }
 
 #[test]
 fn no_program_prints_past_its_output() {
     // `println!` panics when the reader has gone, and standard output is for results only.
-    for (path, text) in sources("tools/src").into_iter().chain(sources("formats/src")) {
+    for (path, text) in all_sources().into_iter().filter(|(path, _)| path.contains("/src/")) {
         let code = code(&text);
         for word in ["println!", "print!", "eprintln!", "eprint!", "dbg!"] {
             let found = code.match_indices(word).any(|(at, _)| {

@@ -2,7 +2,7 @@
 
 use crate::streams::check;
 use crate::support::{Folder, same_text};
-use pm_tools::image::Picture;
+use pm_pictures::Picture;
 use std::path::Path;
 
 /// The same text but for the last digit of directions: those on an edge of the octahedron have two codes each.
@@ -78,7 +78,7 @@ fn exr(folder: &Folder, name: &str, size: [u32; 2], value: f32) {
     let mut picture = Picture::black(size);
     picture.pixels.fill([value, 2.0 * value, 4.0 * value]);
     let mut bytes = vec![];
-    picture.write(Path::new(name), &mut bytes, &[("photonmap.k", "9".into())]).unwrap();
+    picture.write(Path::new(name), &mut bytes, "pm", &[("photonmap.k", "9".into())]).unwrap();
     folder.write(name, bytes);
 }
 

@@ -1,0 +1,118 @@
+//! Lights: which triangle, and where on it.
+
+use super::sampling::triangle_point;
+use super::surface::{Stage, SurfacePoint};
+use crate::scene::Scene;
+use glam::Vec3;
+use pm_random::Random;
+
+/// The lights of a scene, to be chosen in proportion to their power.
+pub(super) struct Lights {
+    triangles: Vec<Light>,
+}
+
+struct Light {
+    triangle: usize,
+    radiance: Vec3,
+    /// Flux in watts, per channel.
+    flux: [f64; 3],
+    area: f64,
+    probability: f64,
+    /// Sum of the probabilities up to and including this one.
+    cumulative: f64,
+}
+
+/// A light chosen at random.
+pub(super) struct Chosen<'a> {
+    light: &'a Light,
+}
+
+/// Inverse plastic number and its square: the steps of the R2 sequence (Roberts, *The Unreasonable Effectiveness of
+/// Quasirandom Sequences*, 2018).
+const PLASTIC_STEPS: (f64, f64) = (0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
+
+impl Lights {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let lights = scene.lights();
+        let power = |flux: [f64; 3]| flux.iter().sum::<f64>();
+        let total: f64 = lights.iter().map(|light| power(light.flux)).sum();
+        let mut cumulative = 0.0;
+        let triangles = lights
+            .iter()
+            .map(|light| {
+                let probability = power(light.flux) / total;
+                cumulative += probability;
+                Light {
+                    triangle: light.triangle as usize,
+                    radiance: Vec3::from(light.emission),
+                    flux: light.flux,
+                    area: light.area,
+                    probability,
+                    cumulative,
+                }
+            })
+            .collect();
+        Self { triangles }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The light at `u` in [0, 1) of the total power.
+    pub(super) fn choose(&self, u: f32) -> Chosen<'_> {
+        let at = self.triangles.partition_point(|light| light.cumulative <= f64::from(u));
+        // Rounding may leave the last sum below 1.
+        Chosen { light: &self.triangles[at.min(self.triangles.len() - 1)] }
+    }
+
+    /// Radiance that a point reflects of light that comes straight from the lights, the mean over `samples` shadow rays;
+    /// `brdf` is its BRDF for a direction towards a light. With a BRDF of 1 this is the irradiance.
+    ///
+    /// Samples are strata of the total power; where they lie on the lights is a low-discrepancy sequence, shifted at
+    /// random so that each sample by itself is spread evenly.
+    pub(super) fn reflected(
+        &self,
+        stage: &Stage<'_>,
+        point: &SurfacePoint,
+        samples: u32,
+        random: &mut Random,
+        brdf: impl Fn(Vec3) -> Vec3,
+    ) -> Vec3 {
+        if self.is_empty() || samples == 0 {
+            return Vec3::ZERO;
+        }
+        let (shift_u, shift_v) = (random.unit(), random.unit());
+        let mut sum = Vec3::ZERO;
+        for sample in 0..samples {
+            let chosen = self.choose((sample as f32 + random.unit()) / samples as f32);
+            let along = |step: f64, shift: f32| (f64::from(sample) * step + f64::from(shift)).fract() as f32;
+            let (u, v) = triangle_point(along(PLASTIC_STEPS.0, shift_u), along(PLASTIC_STEPS.1, shift_v));
+            let (target, normal) = stage.point_before(chosen.light.triangle, u, v);
+            let way = target - point.position;
+            let cosine_here = way.dot(point.facing);
+            let cosine_there = -way.dot(normal);
+            if cosine_here <= 0.0 || cosine_there <= 0.0 || stage.blocked(point.start(way), target) {
+                continue;
+            }
+            // cos cos' / d^2 over the density 1 / area; `way` is not normalised, hence d^4.
+            let geometry = f64::from(cosine_here) * f64::from(cosine_there) / f64::from(way.length_squared()).powi(2);
+            let weight = geometry * chosen.light.area / (chosen.light.probability * f64::from(samples));
+            sum += chosen.light.radiance * brdf(way.normalize()) * weight as f32;
+        }
+        sum
+    }
+}
+
+impl Chosen<'_> {
+    /// A point on the light, lifted off its front, and the normal there.
+    pub(super) fn point(&self, stage: &Stage<'_>, random: &mut Random) -> (Vec3, Vec3) {
+        let (u, v) = triangle_point(random.unit(), random.unit());
+        stage.point_before(self.light.triangle, u, v)
+    }
+
+    /// Flux of the light over the probability that it was chosen, in watts.
+    pub(super) fn path_flux(&self) -> Vec3 {
+        Vec3::from(self.light.flux.map(|flux| (flux / self.light.probability) as f32))
+    }
+}

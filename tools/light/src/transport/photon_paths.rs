@@ -1,0 +1,142 @@
+//! Photons: paths from the lights, by Russian roulette.
+//!
+//! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, chapter 5. Photons carry flux; at each diffuse hit one
+//! is stored, the first hit included, and then the path goes on with a probability equal to the largest reflectance.
+
+use super::Purpose;
+use super::lights::Lights;
+use super::reflection::{Reflection, spread_shares, spreads};
+use super::sampling::cosine_direction;
+use super::scatter::specular;
+use super::surface::Stage;
+use crate::scene::Scene;
+use glam::Vec3;
+use pm_formats::Photon;
+use pm_random::Random;
+
+/// A photon as a path stores it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPhoton {
+    /// Where.
+    pub position: Vec3,
+    /// Flux in watts times the number of emitted paths.
+    pub power: Vec3,
+    /// Unit vector towards where it came from.
+    pub towards_source: Vec3,
+    /// Unit normal of the surface, on the side it came from.
+    pub normal: Vec3,
+    /// Did it come from the light by mirrors and glass alone, and by one of them at least?
+    pub caustic: bool,
+}
+
+/// Paths of photons through a scene.
+pub struct PhotonPaths<'a> {
+    stage: Stage<'a>,
+    lights: Lights,
+    seed: u64,
+}
+
+/// Survival is never surer than this, so that a path in a closed white room ends.
+const MOST_CERTAIN: f32 = 0.999;
+/// Specular hits in a row after which a path may end although nothing absorbs it: light can circle in glass for ever.
+const PATIENCE: u32 = 32;
+
+/// Russian roulette: with probability `chance` (capped below 1) the weight that makes up for the other outcome.
+pub(super) fn survive(chance: f32, random: &mut Random) -> Option<f32> {
+    let chance = chance.min(MOST_CERTAIN);
+    (random.unit() < chance).then(|| 1.0 / chance)
+}
+
+/// Patience with specular hits: after many in a row a path goes on with probability 0.95.
+pub(super) fn patience(hits: u32, random: &mut Random) -> Option<f32> {
+    if hits < PATIENCE { Some(1.0) } else { survive(0.95, random) }
+}
+
+impl<'a> PhotonPaths<'a> {
+    /// Paths through `scene`, a different set for each seed.
+    #[must_use]
+    pub fn new(scene: &'a Scene, seed: u64) -> Self {
+        Self { stage: Stage::new(scene), lights: Lights::new(scene), seed }
+    }
+
+    /// Follows path number `path` and gives each photon it stores to `store`, in order.
+    pub fn trace(&self, path: u64, mut store: impl FnMut(PathPhoton)) {
+        if self.lights.is_empty() {
+            return;
+        }
+        let random = &mut Random::new(&[self.seed, Purpose::PhotonPath as u64, path]);
+        let light = self.lights.choose(random.unit());
+        let mut power = light.path_flux();
+        let (mut origin, normal) = light.point(&self.stage, random);
+        let mut direction = cosine_direction(normal, random.unit(), random.unit());
+        let mut specular_hits = 0;
+        let mut spread_before = false;
+        while let Some(point) = self.stage.hit(origin, direction) {
+            let material = self.stage.material(&point);
+            let (diffuse, lobe) = spread_shares(material);
+            if spreads(material) {
+                store(PathPhoton {
+                    position: point.position,
+                    power,
+                    towards_source: -direction,
+                    normal: point.facing,
+                    caustic: specular_hits > 0 && !spread_before,
+                });
+            }
+            // One of the ways on is chosen, with a probability equal to the largest channel of what it carries.
+            let ways = specular(material, &point, direction);
+            let chances = [diffuse.max_element(), lobe.max_element()]
+                .into_iter()
+                .chain(ways.iter().map(|way| way.map_or(0.0, |way| way.share.max_element())));
+            let total: f32 = chances.clone().sum();
+            let Some(scale) = survive(total, random) else { return };
+            let mut choice = random.unit() * total;
+            let chosen = chances.clone().position(|chance| {
+                choice -= chance;
+                choice < 0.0
+            });
+            // `scale` is 1 / total (capped); the way itself was chosen with chance / total.
+            let weight = |chance: f32| scale * total / chance;
+            match chosen.unwrap_or(0) {
+                0 if diffuse.max_element() > 0.0 => {
+                    power *= diffuse * weight(diffuse.max_element());
+                    direction = cosine_direction(point.facing, random.unit(), random.unit());
+                    (specular_hits, spread_before) = (0, true);
+                }
+                0 | 1 if lobe.max_element() > 0.0 => {
+                    let reflection = Reflection::new(material, point.facing, -direction);
+                    // What the lobe sends below the surface is absorbed.
+                    let Some((out, share)) = reflection.sample_lobe(random.unit(), random.unit()) else { return };
+                    power *= share * weight(lobe.max_element());
+                    direction = out;
+                    (specular_hits, spread_before) = (0, true);
+                }
+                way => {
+                    // Rounding may have passed over the last way: then it is the last there is.
+                    let way = ways[way.saturating_sub(2)].or(ways[0]);
+                    let Some(way) = way else { return };
+                    let Some(patient) = patience(specular_hits, random) else { return };
+                    power *= way.share * (weight(way.share.max_element()) * patient);
+                    direction = way.direction;
+                    specular_hits += 1;
+                }
+            }
+            origin = point.start(direction);
+        }
+    }
+
+    /// Packs photon number `id`; the rounding of its power is decided by a hash of seed and id, so that sums over many
+    /// photons are exact on average. `None` if its power cannot be packed.
+    #[must_use]
+    pub fn pack(&self, id: u64, photon: &PathPhoton) -> Option<Photon> {
+        let mut random = Random::new(&[self.seed, Purpose::PhotonRounding as u64, id]);
+        let threshold = [(); 3].map(|()| random.unit());
+        Photon::new(
+            photon.position.into(),
+            photon.power.into(),
+            threshold,
+            photon.towards_source.into(),
+            photon.normal.into(),
+        )
+    }
+}

@@ -1,0 +1,156 @@
+//! Where each gather ray of a picture stands in an order: known from the eye rays alone, so that windows of rays can be
+//! cast without the rest.
+//!
+//! Rays that will be lost have their places like all others, as only casting them tells. The eye rays are all cast, one
+//! for each hemisphere of gather rays: so the length of the order is known exactly, and every ray can have the same chance.
+
+use super::gather_rays::{GatherRays, RayCounts};
+use pm_orders::{Generative, Leaves, Pass, Span};
+use pm_parallel::in_order;
+use std::convert::Infallible;
+use std::ops::Range;
+
+/// Pixels of a row whose points seen are counted together.
+const STRETCH: u32 = 16;
+/// Spans of pixels whose eye rays are one piece of work.
+const SPANS_A_JOB: usize = 32;
+
+/// The points seen of an image, counted in the order of their pixels.
+pub struct RayPlan {
+    passes: Vec<Pass>,
+    /// Gather rays of each point seen that precede each bin, and of all bins.
+    before_bin: Vec<u64>,
+    batches: Vec<Batch>,
+    rays: u64,
+}
+
+/// A row or tile.
+struct Batch {
+    /// Rays before it.
+    first: u64,
+    stretches: Vec<Stretch>,
+    /// Points seen directly, and of those behind specular surfaces.
+    points: [u64; 2],
+}
+
+/// Some pixels of a row, and the points seen in the batch before them.
+struct Stretch {
+    row: u32,
+    columns: Range<u32>,
+    before: [u64; 2],
+}
+
+/// Rays that belong together: those of a span of pixels with these numbers, counted from the first of the span.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The pixels and which of their rays are counted.
+    pub span: Span,
+    /// The rays that are wanted.
+    pub rays: Range<u64>,
+}
+
+/// The points seen in each stretch of a span of pixels.
+struct Seen {
+    span: Span,
+    points: Vec<[u64; 2]>,
+    counts: RayCounts,
+}
+
+impl RayPlan {
+    /// Casts the eye rays of an image that is visited in `order`, on so many threads, and counts them in `counts`.
+    #[must_use]
+    pub fn new(rays: &GatherRays<'_>, order: Generative, threads: usize, counts: &mut RayCounts) -> Self {
+        let mut before_bin = vec![0];
+        for more in rays.rays_by_bin() {
+            before_bin.push(before_bin[before_bin.len() - 1] + more);
+        }
+        let mut plan = Self { passes: order.passes().collect(), before_bin, batches: vec![], rays: 0 };
+        let mut spans = order.spans(rays.size()).filter(|span| span.pass.is_first());
+        let some = || Ok(Some(spans.by_ref().take(SPANS_A_JOB).collect()).filter(|some: &Vec<_>| !some.is_empty()));
+        let look = |spans: Vec<Span>| spans.into_iter().map(|span| look(rays, span)).collect();
+        let add = |seen: Vec<Seen>| {
+            seen.into_iter().for_each(|seen| plan.add(seen, counts));
+            Ok::<_, Infallible>(())
+        };
+        let Ok(()) = in_order(threads, some, look, add);
+        plan
+    }
+
+    fn add(&mut self, seen: Seen, counts: &mut RayCounts) {
+        let Seen { span, points, counts: cast } = seen;
+        *counts += cast;
+        if span.batch == self.batches.len() as u64 {
+            self.batches.push(Batch { first: self.rays, stretches: vec![], points: [0; 2] });
+        }
+        let batch = self.batches.last_mut().expect("batches count up from 0");
+        for (columns, [direct, behind]) in stretches(&span).zip(points) {
+            batch.stretches.push(Stretch { row: span.row, columns, before: batch.points });
+            batch.points = [batch.points[0] + direct, batch.points[1] + behind];
+            self.rays += (direct + behind) * self.before_bin[self.before_bin.len() - 1];
+        }
+    }
+
+    /// Gather rays of the whole image; with direct visualisation, the points seen.
+    #[must_use]
+    pub const fn rays(&self) -> u64 {
+        self.rays
+    }
+
+    /// The rays with these numbers in the order of all, piece by piece.
+    pub fn pieces(&self, wanted: Range<u64>) -> impl Iterator<Item = Piece> {
+        let first = self.batches.partition_point(|batch| batch.first <= wanted.start).saturating_sub(1);
+        let end = wanted.end.min(self.rays);
+        let batches = (first..self.batches.len()).take_while(move |&batch| self.batches[batch].first < end);
+        batches.flat_map(move |batch| {
+            let wanted = wanted.start..end;
+            self.passes.iter().flat_map(move |&pass| self.pieces_of_pass(batch, pass, &wanted))
+        })
+    }
+
+    fn pieces_of_pass(&self, number: usize, pass: Pass, wanted: &Range<u64>) -> impl Iterator<Item = Piece> + use<'_> {
+        let batch = &self.batches[number];
+        let points = move |[direct, behind]: [u64; 2]| match pass.leaves {
+            Leaves::All => direct + behind,
+            Leaves::Direct => direct,
+            Leaves::BehindSpecular => behind,
+        };
+        // The rays of a batch are ordered by whether they begin behind specular surfaces, then by bin, then by point.
+        let [before, through] = [0, 1].map(|end| self.before_bin[pass.bin as usize + end]);
+        let earlier = if pass.leaves == Leaves::BehindSpecular { batch.points[0] } else { 0 };
+        let earlier = earlier * self.before_bin[self.before_bin.len() - 1] + points(batch.points) * before;
+        let place = move |point: u64| batch.first + earlier + point * (through - before);
+        let Range { start, end } = *wanted;
+        let first = batch.stretches.partition_point(|stretch| place(points(stretch.before)) <= start);
+        let stretches = first.saturating_sub(1)..batch.stretches.len();
+        let placed = stretches.map(move |at| {
+            let stretch = &batch.stretches[at];
+            let next = batch.stretches.get(at + 1).map_or(batch.points, |next| next.before);
+            (stretch, place(points(stretch.before))..place(points(next)))
+        });
+        placed.take_while(move |(_, rays)| rays.start < end).filter_map(move |(stretch, rays)| {
+            let wanted = start.max(rays.start)..end.min(rays.end);
+            (wanted.start < wanted.end).then(|| Piece {
+                span: Span { batch: number as u64, row: stretch.row, columns: stretch.columns.clone(), pass },
+                rays: wanted.start - rays.start..wanted.end - rays.start,
+            })
+        })
+    }
+}
+
+fn look(rays: &GatherRays<'_>, span: Span) -> Seen {
+    let mut counts = RayCounts::default();
+    let points = stretches(&span).map(|columns| {
+        columns.fold([0; 2], |sum, x| {
+            let [direct, behind] = rays.points_seen([x, span.row], &mut counts);
+            [sum[0] + direct, sum[1] + behind]
+        })
+    });
+    let points = points.collect();
+    Seen { span, points, counts }
+}
+
+/// The columns of a span, some at a time.
+fn stretches(span: &Span) -> impl Iterator<Item = Range<u32>> + use<> {
+    let Range { start, end } = span.columns;
+    (start..end).step_by(STRETCH as usize).map(move |x| x..x.saturating_add(STRETCH).min(end))
+}

@@ -1,0 +1,102 @@
+//! An order at work on a stream: which queries it holds together, and how they leave.
+
+use super::Reorder;
+use pm_formats::{BLOCK_RECORDS, BlockMeta, Number, Query};
+
+pm_registry::choices! {
+    /// How far an order may look.
+    #[derive(Debug)]
+    pub enum Per {
+        /// Each batch (tile or scanline) by itself, as it stands in the stream
+        Batch = "batch",
+        /// The whole image, which then is one batch
+        Image = "image",
+    }
+}
+
+impl Per {
+    /// What is to be held together with queries of this block.
+    const fn batch_of(self, meta: BlockMeta) -> BlockMeta {
+        match self {
+            Self::Batch => BlockMeta { records: 0, ..meta },
+            Self::Image => BlockMeta { batch: 0, warm_up: false, records: 0 },
+        }
+    }
+}
+
+/// Takes what a reordering lets go: the block it belongs to, and its queries.
+pub type Emit<'a> = dyn FnMut(BlockMeta, &[Query]) -> pm_formats::Result<()> + 'a;
+
+/// An order, applied to each batch of a stream or to the image.
+pub struct Reordering {
+    per: Per,
+    order: Box<dyn Reorder>,
+    /// What the queries in hand belong to.
+    held: Option<BlockMeta>,
+    leaving: Vec<Query>,
+}
+
+impl Reordering {
+    /// Nothing has come yet.
+    #[must_use]
+    pub const fn new(per: Per, order: Box<dyn Reorder>) -> Self {
+        Self { per, order, held: None, leaving: vec![] }
+    }
+
+    /// Takes queries of one block; may emit some that are held.
+    ///
+    /// # Errors
+    /// Those of `emit`, and of the order's temporary files.
+    pub fn push(&mut self, meta: BlockMeta, queries: &[Query], emit: &mut Emit<'_>) -> pm_formats::Result<()> {
+        let meta = self.per.batch_of(meta);
+        if self.held.is_some_and(|held| held != meta) {
+            self.drain(emit)?;
+        }
+        self.held = Some(meta);
+        let mut outlet = Outlet { meta, leaving: &mut self.leaving, emit };
+        self.order.push(queries, &mut outlet)?;
+        outlet.flush()
+    }
+
+    /// Emits all that is held.
+    ///
+    /// # Errors
+    /// Those of `emit`, and of the order's temporary files.
+    pub fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
+        let Some(meta) = self.held.take() else { return Ok(()) };
+        let mut outlet = Outlet { meta, leaving: &mut self.leaving, emit };
+        self.order.drain(&mut outlet)?;
+        outlet.flush()
+    }
+
+    /// What the order cost, for the end block.
+    #[must_use]
+    pub fn measures(&self) -> Vec<(String, Number)> {
+        self.order.measures()
+    }
+}
+
+/// Where queries leave an order, one after the other; they are emitted in blocks.
+pub struct Outlet<'a> {
+    meta: BlockMeta,
+    leaving: &'a mut Vec<Query>,
+    emit: &'a mut Emit<'a>,
+}
+
+impl Outlet<'_> {
+    /// A query leaves.
+    ///
+    /// # Errors
+    /// If queries cannot be emitted.
+    #[inline]
+    pub fn leave(&mut self, query: Query) -> pm_formats::Result<()> {
+        self.leaving.push(query);
+        if self.leaving.len() == BLOCK_RECORDS { self.flush() } else { Ok(()) }
+    }
+
+    fn flush(&mut self) -> pm_formats::Result<()> {
+        (self.emit)(self.meta, self.leaving)?;
+        self.leaving.clear();
+        Ok(())
+    }
+}

@@ -1,0 +1,189 @@
+//! How every pm program behaves: arguments, input and output, messages, exit codes.
+
+mod choice;
+mod error;
+mod input;
+mod output;
+mod progress;
+mod typed;
+mod usage;
+
+pub use choice::{ChoiceParser, choice};
+pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
+pub use output::{Output, OutputArgs, create_output};
+pub use progress::Progress;
+pub use usage::{UsageError, usage};
+
+use clap::{CommandFactory, FromArgMatches};
+use pm_formats::Step;
+use std::ffi::OsString;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::OnceLock;
+
+/// Version with commit, as it goes into streams.
+pub const VERSION: &str = env!("PM_VERSION");
+
+/// The name and version that pictures say they were made by.
+#[must_use]
+pub fn software() -> String {
+    format!("pm {VERSION}")
+}
+
+/// What `--version` prints: the version, and the format of the streams.
+pub const LONG_VERSION: &str = concat!(env!("PM_VERSION"), "\nstream format version 1");
+
+/// The paragraph on exit codes that ends every help.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  failed: the system refused, or what was asked cannot be done
+  2  asked wrongly: see the message
+  3  an input stream is incomplete or damaged";
+
+static PROGRAM: OnceLock<String> = OnceLock::new();
+
+/// Quiet: what every program takes.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct Voice {
+    /// No progress and no remarks on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Voice {
+    /// Says something on standard error, unless quiet.
+    pub fn remark(&self, text: impl std::fmt::Display) {
+        if !self.quiet {
+            say(text);
+        }
+    }
+}
+
+/// Threads and quiet: what the programs take whose work can be shared out.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct Common {
+    /// Threads to work with; the output does not depend on it
+    #[arg(short, long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: u16,
+    /// No progress and no remarks on standard error
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Common {
+    /// Number of threads.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        usize::from(self.threads)
+    }
+
+    /// Says something on standard error, unless quiet.
+    pub fn remark(&self, text: impl std::fmt::Display) {
+        Voice { quiet: self.quiet }.remark(text);
+    }
+}
+
+/// What was typed, for the history of the streams written.
+pub struct Typed {
+    program: &'static str,
+    arguments: Vec<String>,
+}
+
+impl Typed {
+    /// The history entry of this run, which draws random numbers from `seed` if it does.
+    #[must_use]
+    pub fn step(&self, seed: Option<u64>) -> Step {
+        Step {
+            program: self.program.to_owned(),
+            version: VERSION.to_owned(),
+            arguments: self.arguments.clone(),
+            seed,
+            input: None,
+            inputs: vec![],
+        }
+    }
+
+    /// The history entry of this run, which reads the stream from `input`.
+    #[must_use]
+    pub fn step_from(&self, input: &Path, seed: Option<u64>) -> Step {
+        let named = (input != Path::new("-")).then(|| input.display().to_string());
+        Step { input: named, ..self.step(seed) }
+    }
+
+    /// Name of the program.
+    #[must_use]
+    pub const fn program(&self) -> &'static str {
+        self.program
+    }
+}
+
+/// Runs a program: parses its arguments, and turns its outcome into a message and an exit code.
+pub fn main<A: CommandFactory + FromArgMatches>(
+    program: &'static str,
+    run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
+) -> ExitCode {
+    let _ = PROGRAM.set(program.to_owned());
+    let raw: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let command =
+        A::command().name(program).version(VERSION).long_version(LONG_VERSION).max_term_width(100).after_long_help(
+            format!("{}\n\n{EXIT_CODES}", A::command().get_after_help().map_or(String::new(), |h| h.to_string())),
+        );
+    if let [flag, what] = &raw[..]
+        && flag == "--generate"
+    {
+        return generate(command, program, &what.to_string_lossy());
+    }
+    let typed = Typed { program, arguments: typed::lasting_arguments(&command, &raw) };
+    let matches = command.try_get_matches_from(std::iter::once(OsString::from(program)).chain(raw));
+    let arguments = matches.and_then(|matches| A::from_arg_matches(&matches));
+    let arguments = match arguments {
+        Ok(arguments) => arguments,
+        Err(error) if error.use_stderr() => {
+            // In a pipe of several programs every line says which of them speaks.
+            let message = error.render().to_string();
+            let lines = message.lines().filter(|line| !line.trim().is_empty());
+            lines.for_each(|line| say(line.strip_prefix("error: ").unwrap_or(line)));
+            return ExitCode::from(2);
+        }
+        Err(help_or_version) => {
+            // These were asked for and go to standard output, where a reader may leave early.
+            let _ = help_or_version.print();
+            return ExitCode::SUCCESS;
+        }
+    };
+    output::remove_temporary_files_on_signals();
+    error::report(run(arguments, &typed))
+}
+
+/// Prints a manual page or shell completions made from the arguments' own definition.
+fn generate(mut command: clap::Command, program: &str, what: &str) -> ExitCode {
+    let mut text = Vec::new();
+    let done = match what {
+        "man" => clap_mangen::Man::new(command).render(&mut text),
+        "bash" | "zsh" | "fish" => {
+            use std::str::FromStr as _;
+            let shell = clap_complete::Shell::from_str(what).expect("one of the names above");
+            clap_complete::generate(shell, &mut command, program, &mut text);
+            Ok(())
+        }
+        _ => {
+            say(format!("--generate {what}: one of man, bash, zsh, fish was expected"));
+            return ExitCode::from(2);
+        }
+    };
+    let done = done.map_err(Into::into).and_then(|()| {
+        let mut output = create_output(Path::new("-"))?;
+        output.write_all(&text)?;
+        output.commit()
+    });
+    error::report(done)
+}
+
+/// A line on standard error that says who speaks.
+pub fn say(text: impl std::fmt::Display) {
+    let program = PROGRAM.get().map_or("pm", String::as_str);
+    // Nobody is left to tell if standard error is closed.
+    let _ = writeln!(std::io::stderr(), "{program}: {text}");
+}

@@ -1,0 +1,61 @@
+//! Outcomes: one line on standard error and an exit code.
+
+use super::output::{ReaderGone, unfinished_files};
+use super::say;
+use super::usage::UsageError;
+use pm_exchange::{BadInput, BadQuestion};
+use pm_pictures::UnknownEnding;
+use std::io;
+use std::process::ExitCode;
+
+/// Prints what went wrong, if anything, and chooses the exit code.
+pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
+    let Err(error) = outcome else { return ExitCode::SUCCESS };
+    if is_reader_gone(&error) {
+        let files = unfinished_files();
+        if files.is_empty() {
+            return ExitCode::SUCCESS;
+        }
+        say(format!("the reader of standard output left early: {} not written", files.join(", ")));
+        return ExitCode::from(1);
+    }
+    // Causes are joined on one line; a library that repeats its cause in its own message is not quoted twice.
+    let mut text = String::new();
+    for cause in error.chain() {
+        let cause = cause.to_string().replace('\n', " ");
+        if !text.ends_with(&cause) {
+            if !text.is_empty() {
+                text.push_str(": ");
+            }
+            text.push_str(&cause);
+        }
+    }
+    say(text);
+    let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
+    if found(|cause| cause.is::<UsageError>() || cause.is::<BadQuestion>() || cause.is::<UnknownEnding>()) {
+        ExitCode::from(2)
+    } else if is_bad_input(&error)
+        || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))
+    {
+        ExitCode::from(3)
+    } else {
+        ExitCode::from(1)
+    }
+}
+
+fn is_reader_gone(error: &anyhow::Error) -> bool {
+    error.chain().any(holds::<ReaderGone>)
+}
+
+fn is_bad_input(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| cause.is::<BadInput>() || holds::<BadInput>(cause))
+}
+
+/// Whether a cause is an error of input or output that was made from an error of this type.
+fn holds<T: std::error::Error + 'static>(cause: &(dyn std::error::Error + 'static)) -> bool {
+    let io = match cause.downcast_ref::<pm_formats::Error>() {
+        Some(pm_formats::Error::Io(io)) => Some(io),
+        _ => cause.downcast_ref::<io::Error>(),
+    };
+    io.and_then(io::Error::get_ref).is_some_and(|inner| inner.is::<T>())
+}

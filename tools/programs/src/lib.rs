@@ -1,0 +1,8 @@
+//! What the pm programs share: how every one of them behaves, and the options that several take.
+//!
+//! `README.md` beside this crate's folder is the map of the code.
+
+pub mod cli;
+pub mod map_args;
+pub mod setting;
+pub mod view;
