@@ -14,7 +14,7 @@ pub use output::{Output, OutputArgs, create_output};
 pub use progress::Progress;
 pub use usage::{UsageError, usage};
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::{Command, CommandFactory, FromArgMatches};
 use pm_formats::Step;
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -124,12 +124,20 @@ pub fn main<A: CommandFactory + FromArgMatches>(
     program: &'static str,
     run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
 ) -> ExitCode {
+    main_of(program, A::command(), run)
+}
+
+/// The same with arguments that are not all known to the compiler, such as words that a registry holds.
+pub fn main_of<A: FromArgMatches>(
+    program: &'static str,
+    command: Command,
+    run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
+) -> ExitCode {
     let _ = PROGRAM.set(program.to_owned());
     let raw: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let codes = format!("{}\n\n{EXIT_CODES}", command.get_after_help().map_or(String::new(), |h| h.to_string()));
     let command =
-        A::command().name(program).version(VERSION).long_version(LONG_VERSION).max_term_width(100).after_long_help(
-            format!("{}\n\n{EXIT_CODES}", A::command().get_after_help().map_or(String::new(), |h| h.to_string())),
-        );
+        command.name(program).version(VERSION).long_version(LONG_VERSION).max_term_width(100).after_long_help(codes);
     if let [flag, what] = &raw[..]
         && flag == "--generate"
     {
@@ -158,7 +166,7 @@ pub fn main<A: CommandFactory + FromArgMatches>(
 }
 
 /// Prints a manual page or shell completions made from the arguments' own definition.
-fn generate(mut command: clap::Command, program: &str, what: &str) -> ExitCode {
+fn generate(mut command: Command, program: &str, what: &str) -> ExitCode {
     let mut text = Vec::new();
     let done = match what {
         "man" => clap_mangen::Man::new(command).render(&mut text),
