@@ -3,6 +3,7 @@
 use crate::cli::asked_wrongly;
 use crate::streams::records;
 use crate::support::Folder;
+use pm_formats::vocabulary::meaning;
 use pm_formats::{BlockReader, Query};
 use pm_pictures::Picture;
 
@@ -43,10 +44,10 @@ fn the_stream_says_what_guided_it() {
     let line = "pm-queries --size 8x8 --gathers 4 --guide";
     let guided = folder.run(&format!("{line} map.pmp")).ok().stdout;
     let header = BlockReader::new(&guided[..]).unwrap().header().clone();
-    assert_eq!(header.meaning("sampling"), Some("guided"));
+    assert_eq!(header.meaning(meaning::SAMPLING), Some("guided"));
     let check = folder.run("pm-view --check map.pmp").ok();
     let digest = check.text().split_whitespace().last().unwrap();
-    let guide = header.meaning("guide").unwrap();
+    let guide = header.meaning(meaning::GUIDE).unwrap();
     assert!(guide.contains(digest.trim_end_matches('.')), "{guide} / {}", check.text());
     folder.write("q.pmq", &guided);
     let history = folder.run("pm-view --history q.pmq").ok();

@@ -3,6 +3,7 @@
 use crate::streams::records;
 use crate::support::Folder;
 use pm_formats::Photon;
+use pm_formats::vocabulary::measure;
 use pm_pictures::Picture;
 use std::ops::Range;
 
@@ -121,7 +122,7 @@ fn fluxes_in_a_map_are_those_of_an_independent_particle_tracer() {
     let shares = |seed: u32| {
         let folder = photons("cornell-diffuse", &format!("-n 32768 --seed {seed}"));
         let told = folder.run("pm-view map.pmp").ok();
-        let paths = told.text().lines().find_map(|line| line.split_once("emitted_paths ")).expect("a count").1;
+        let paths = told.text().lines().find_map(|line| line.split_once(measure::EMITTED_PATHS)).expect("a count").1;
         let paths: f64 = paths.trim().replace(',', "").parse().unwrap();
         let mut shares = [[0f64; 3]; 5];
         for photon in records::<Photon>(&folder.read("map.pmp")) {

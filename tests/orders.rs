@@ -2,6 +2,7 @@
 
 use crate::streams::{check, records, sorted_records};
 use crate::support::{Folder, Outcome, same_bytes};
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{End, Kind, Query, RecordReader, Section};
 use std::fs;
 use std::io::{Read as _, Write as _};
@@ -47,7 +48,7 @@ fn a_pass_is_a_bin_of_the_hemisphere() {
     assert!(passes.iter().all(|pass| pass.is_sorted_by_key(|query| query.pixel)));
     assert!(passes[..4].iter().all(|direct| direct.len() > passes[4].len()));
     // Each later pass casts the eye rays again: three for what is seen directly, four for the rest.
-    assert_eq!(measure(&stream, "eye_rays_again"), 7.0 * measure(&stream, "eye_rays"));
+    assert_eq!(measure(&stream, measure::EYE_RAYS_AGAIN), 7.0 * measure(&stream, measure::EYE_RAYS));
 }
 
 #[test]
@@ -133,25 +134,25 @@ fn every_order_tells_what_it_costs() {
         ("buffered", true),
     ] {
         let full = folder.run(&format!("pm-reorder {order} --storage 256K q.pmq")).ok().stdout;
-        let held = measure(&full, "peak_queries_held");
+        let held = measure(&full, measure::PEAK_QUERIES_HELD);
         assert!(held > 0.0 && held <= queries && (held < queries) == streaming, "{order}: {held} of {queries}");
-        assert_eq!(measure(&full, "storage"), held * 44.0, "{order}");
-        assert_eq!(measure(&full, "storage_compact"), held * 9.0, "{order}");
-        let spilled = measure(&full, "spilled_written");
-        assert_eq!(spilled, measure(&full, "spilled_read"), "{order}");
+        assert_eq!(measure(&full, measure::STORAGE), held * 44.0, "{order}");
+        assert_eq!(measure(&full, measure::STORAGE_COMPACT), held * 9.0, "{order}");
+        let spilled = measure(&full, measure::SPILLED_WRITTEN);
+        assert_eq!(spilled, measure(&full, measure::SPILLED_READ), "{order}");
         assert_eq!(spilled == 0.0, streaming, "{order}: {spilled}");
         assert!(spilled <= 1.1 * 44.0 * queries, "{order}: {spilled} bytes spilled of {queries} queries");
-        let on_chip = measure(&full, "on_chip");
+        let on_chip = measure(&full, measure::ON_CHIP);
         // The table of cells, where there is one, is beside the store.
         assert!(on_chip > 0.0 && on_chip <= f64::from(256 << 10) * 1.01, "{order}: {on_chip} on chip");
 
         // In compact records less is spilled; beyond what all queries take, nothing.
         let compact = folder.run(&format!("pm-reorder {order} --storage 256K --record compact q.pmq")).ok().stdout;
-        assert!(streaming || measure(&compact, "spilled_written") < 0.25 * spilled, "{order}");
-        let cast_again = measure(&compact, "rays_cast_again");
+        assert!(streaming || measure(&compact, measure::SPILLED_WRITTEN) < 0.25 * spilled, "{order}");
+        let cast_again = measure(&compact, measure::RAYS_CAST_AGAIN);
         assert_eq!(cast_again, 2.0 * queries, "{order}");
         let much = folder.run(&format!("pm-reorder {order} --storage 64M q.pmq")).ok().stdout;
-        assert_eq!(measure(&much, "spilled_written"), 0.0, "{order}");
+        assert_eq!(measure(&much, measure::SPILLED_WRITTEN), 0.0, "{order}");
         // No accounting changes what a sorting order gives.
         assert!(streaming || records::<Query>(&full) == records::<Query>(&much), "{order}");
     }
@@ -212,10 +213,10 @@ fn a_sample_of_batches_holds_whole_batches() {
     // It is a stream like any other, and says what it is.
     let queries: usize = kept.iter().map(|(_, queries)| queries.len()).sum();
     assert_eq!(check(&sample).unwrap().records, queries as u64);
-    assert_eq!(measure(&sample, "queries_kept"), queries as f64);
-    assert_eq!(measure(&sample, "share"), queries as f64 / measure(&sample, "queries_given"));
+    assert_eq!(measure(&sample, measure::QUERIES_KEPT), queries as f64);
+    assert_eq!(measure(&sample, measure::SHARE), queries as f64 / measure(&sample, measure::QUERIES_GIVEN));
     let header = RecordReader::<Query, _>::new(&sample[..]).unwrap().header().clone();
-    assert_eq!(header.meaning("sample"), Some("1 of 4 batches"));
+    assert_eq!(header.meaning(meaning::SAMPLE), Some("1 of 4 batches"));
     assert_eq!(header.history.last().unwrap().program, "pm-sample");
     // Another seed, other batches; one of one is all.
     assert!(batches(&folder.run("pm-sample --batches 4 --seed 1 q.pmq").ok().stdout) != kept);

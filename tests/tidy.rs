@@ -164,6 +164,28 @@ fn no_program_prints_past_its_output() {
 }
 
 #[test]
+fn names_in_streams_come_from_the_vocabulary() {
+    let vocabulary = fs::read_to_string(root().join("formats/src/vocabulary/measure.rs")).expect("the vocabulary");
+    let measures: Vec<&str> = vocabulary.split('"').skip(1).step_by(2).collect();
+    assert!(measures.contains(&"emitted_paths"), "{measures:?}");
+    for (path, text) in all_sources().into_iter().filter(|(path, _)| !path.starts_with("formats/src/vocabulary")) {
+        // A call may be broken across lines.
+        let dense: String = text.split_whitespace().collect();
+        for call in ["meaning", "measure"] {
+            let literal = format!("{call}(\"");
+            assert!(
+                !dense.contains(&literal),
+                "{path}: {literal}...: a name that stands not in pm_formats::vocabulary"
+            );
+        }
+        for name in &measures {
+            let written = format!("(\"{name}\",Number::");
+            assert!(!dense.contains(&written), "{path}: `{name}` stands in pm_formats::vocabulary::measure");
+        }
+    }
+}
+
+#[test]
 fn nothing_is_unsafe() {
     for (path, text) in all_sources() {
         let code = code(&text);

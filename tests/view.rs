@@ -2,6 +2,7 @@
 
 use crate::streams::check;
 use crate::support::{Folder, same_text};
+use pm_formats::vocabulary::measure;
 use pm_pictures::Picture;
 use std::path::Path;
 
@@ -39,8 +40,9 @@ fn what_is_exported_can_be_imported() {
 fn imported_points_go_through_every_program() {
     let folder = Folder::with_streams();
     let paths = folder.run("pm-view map.pmp").ok();
-    let paths = paths.text().lines().find(|line| line.contains("emitted_paths")).expect("a count").to_owned();
-    let digits: String = paths.rsplit("emitted_paths").next().unwrap().chars().filter(char::is_ascii_digit).collect();
+    let paths = paths.text().lines().find(|line| line.contains(measure::EMITTED_PATHS)).expect("a count").to_owned();
+    let digits: String =
+        paths.rsplit(measure::EMITTED_PATHS).next().unwrap().chars().filter(char::is_ascii_digit).collect();
     folder.run("pm-view --records map.pmp -o map.tsv").ok();
     folder.run("pm-view --records q.pmq -o q.tsv").ok();
     folder.run(&format!("pm-view --import photons map.tsv --emitted {digits} -o theirs.pmp")).ok();

@@ -2,6 +2,7 @@
 
 use crate::streams::{check, records, searches};
 use crate::support::{Folder, same_bytes};
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{BlockMeta, BlockReader, End, Header, Query, RecordReader};
 use std::ops::Range;
 
@@ -90,7 +91,7 @@ fn all_windows_together_are_the_whole_stream() {
     for order in ORDERS {
         let line = format!("pm-queries {PICTURE} {order}");
         let whole = Stream::of(&folder, &line);
-        let (all, lost) = (whole.queries(false), whole.measure("gather_rays_lost"));
+        let (all, lost) = (whole.queries(false), whole.measure(measure::GATHER_RAYS_LOST));
         for length in [1, 13, 100, 1_000_000] {
             let refused = folder.run(&format!("{line} --window {length} --only-tiles 100000000"));
             let n = at_most(refused.fails(2));
@@ -99,12 +100,12 @@ fn all_windows_together_are_the_whole_stream() {
             assert_eq!(windows.queries(false).len(), all.len(), "{line}");
             assert!(windows.queries(false) == all, "{line}");
             assert!(windows.queries(true).is_empty());
-            assert_eq!(windows.meaning("sample windows"), n.to_string());
-            assert_eq!(windows.meaning("sample share"), "1");
-            assert_eq!(windows.measure("eye_rays"), whole.measure("eye_rays"), "{line}");
+            assert_eq!(windows.meaning(meaning::SAMPLE_WINDOWS), n.to_string());
+            assert_eq!(windows.meaning(meaning::SAMPLE_SHARE), "1");
+            assert_eq!(windows.measure(measure::EYE_RAYS), whole.measure(measure::EYE_RAYS), "{line}");
             if !order.contains("visualisation") {
-                assert_eq!(windows.measure("gather_rays"), whole.measure("gather_rays"), "{line}");
-                assert_eq!(windows.measure("gather_rays_lost"), lost, "{line}");
+                assert_eq!(windows.measure(measure::GATHER_RAYS), whole.measure(measure::GATHER_RAYS), "{line}");
+                assert_eq!(windows.measure(measure::GATHER_RAYS_LOST), lost, "{line}");
             }
         }
         // So are all its batches.
@@ -112,7 +113,10 @@ fn all_windows_together_are_the_whole_stream() {
         let line = format!("{line} --only-tiles {n}");
         let batches = Stream::of(&folder, &line);
         assert!(batches.blocks == whole.blocks, "{line}");
-        assert_eq!([batches.meaning("sample windows"), batches.meaning("sample share")], [&n.to_string(), "1"]);
+        assert_eq!(
+            [batches.meaning(meaning::SAMPLE_WINDOWS), batches.meaning(meaning::SAMPLE_SHARE)],
+            [&n.to_string(), "1"]
+        );
     }
 }
 
@@ -158,14 +162,17 @@ fn windows_are_cells_of_their_strata_and_what_comes_before() {
                 chosen.push(cell);
             }
             assert!(chosen.len() > n as usize / 2, "{line}: {} windows", chosen.len());
-            assert_eq!(sample.meaning("sample windows"), "20");
-            assert_eq!(sample.meaning("sample"), "20 windows of 13 rays after 9");
+            assert_eq!(sample.meaning(meaning::SAMPLE_WINDOWS), "20");
+            assert_eq!(sample.meaning(meaning::SAMPLE), "20 windows of 13 rays after 9");
             let queries: usize = sample.blocks.iter().map(|(_, queries)| queries.len()).sum();
             assert!(sample.header.expected_records >= Some(queries as u64), "{line}: more than expected");
-            let share: f64 = sample.meaning("sample share").parse().unwrap();
-            assert_eq!(share, sample.measure("gather_rays_measured") / sample.measure("gather_rays_of_all"));
-            measured_rays += sample.measure("gather_rays_measured") as u64;
-            assert_eq!(sample.measure("gather_rays_of_all"), rays as f64);
+            let share: f64 = sample.meaning(meaning::SAMPLE_SHARE).parse().unwrap();
+            assert_eq!(
+                share,
+                sample.measure(measure::GATHER_RAYS_MEASURED) / sample.measure(measure::GATHER_RAYS_OF_ALL)
+            );
+            measured_rays += sample.measure(measure::GATHER_RAYS_MEASURED) as u64;
+            assert_eq!(sample.measure(measure::GATHER_RAYS_OF_ALL), rays as f64);
             choices.push(chosen);
         }
         // Only the last cell can be shorter.
@@ -191,9 +198,12 @@ fn tiles_at_the_source_are_those_of_the_whole() {
             assert!(before.is_empty() && (batch > at || at == 0));
             at = batch;
         }
-        assert!(tiles.measure("eye_rays") < 0.5 * whole.measure("eye_rays"), "{line}: rays that nobody needs");
-        assert_eq!(tiles.meaning("sample"), format!("{n} of {batches} batches"));
-        assert_eq!(tiles.meaning("sample share").parse::<f64>().unwrap(), n as f64 / batches as f64);
+        assert!(
+            tiles.measure(measure::EYE_RAYS) < 0.5 * whole.measure(measure::EYE_RAYS),
+            "{line}: rays that nobody needs"
+        );
+        assert_eq!(tiles.meaning(meaning::SAMPLE), format!("{n} of {batches} batches"));
+        assert_eq!(tiles.meaning(meaning::SAMPLE_SHARE).parse::<f64>().unwrap(), n as f64 / batches as f64);
         let other = Stream::of(&folder, &format!("{line} --only-tiles {n} --sample-seed 1"));
         assert!(other.blocks != tiles.blocks, "{line}: the seed changes nothing");
     }
@@ -247,16 +257,16 @@ fn windows_cut_later_are_the_queries_that_stand_there() {
             measured_places += measured.len();
             before_them += before.len();
         }
-        assert_eq!(sample.measure("queries_kept"), measured_places as f64);
-        assert_eq!(sample.measure("queries_of_warm_up"), before_them as f64);
-        assert_eq!(sample.measure("queries_given"), queries.len() as f64);
-        assert_eq!(sample.measure("share"), measured_places as f64 / queries.len() as f64);
+        assert_eq!(sample.measure(measure::QUERIES_KEPT), measured_places as f64);
+        assert_eq!(sample.measure(measure::QUERIES_OF_WARM_UP), before_them as f64);
+        assert_eq!(sample.measure(measure::QUERIES_GIVEN), queries.len() as f64);
+        assert_eq!(sample.measure(measure::SHARE), measured_places as f64 / queries.len() as f64);
         // A window of the last stratum may lie beyond the end of the stream.
         let (windows, strata) = (sample.windows().len(), queries.len().div_ceil(every));
         assert!(windows == strata || windows + 1 == strata, "{line}: {windows} windows");
-        assert_eq!(sample.measure("windows"), strata as f64);
-        assert_eq!(sample.meaning("sample windows"), "0");
-        assert_eq!(sample.meaning("sample share").parse::<f64>().unwrap(), window as f64 / every as f64);
+        assert_eq!(sample.measure(measure::WINDOWS), strata as f64);
+        assert_eq!(sample.meaning(meaning::SAMPLE_WINDOWS), "0");
+        assert_eq!(sample.meaning(meaning::SAMPLE_SHARE).parse::<f64>().unwrap(), window as f64 / every as f64);
         assert!(measured_places.abs_diff(queries.len() * window / every) <= window, "{line}: {measured_places}");
     }
     // One of one is everything, in order.

@@ -32,6 +32,7 @@ mod history;
 mod record;
 mod stream;
 pub mod trace;
+pub mod vocabulary;
 
 pub use beside::{
     IrradianceRay, IrradianceRecord, PixelWeight, decode_irradiance, decode_weights, encode_irradiance, encode_weights,

@@ -1,6 +1,7 @@
 //! Are the bytes those that `README.md` specifies? Read here by offsets, without the library's reader.
 
 use pm_formats::trace::{BlockEncoder, Coding, TraceWriter, lay_out};
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, Photon, Query, RecordWriter, StageReport, Step};
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
@@ -49,7 +50,7 @@ fn sample_header() -> Header {
         specular: [0.0; 3],
         exponent: 0.0,
     });
-    header.set_meaning("order", "scanline");
+    header.set_meaning(meaning::ORDER, "scanline");
     header.history.push(Step {
         program: "pm-x".into(),
         version: "1".into(),
@@ -67,7 +68,7 @@ fn header_and_end_block_of_photons() {
     let mut writer = RecordWriter::new(vec![], &sample_header()).unwrap();
     let meta = BlockMeta { batch: 5, warm_up: true, records: 0 };
     writer.write(meta, &[photon, photon.with_axis(2)]).unwrap();
-    let stage = StageReport::new("pm-x").with("emitted_paths", Number::Count(11));
+    let stage = StageReport::new("pm-x").with(measure::EMITTED_PATHS, Number::Count(11));
     let stream = writer.finish(vec![stage]).unwrap();
 
     let (record, rest) = header(&stream, 1);

@@ -3,6 +3,7 @@
 use crate::support::Folder;
 use pm_formats::trace::{BlockEncoder, TraceWriter, lay_out};
 use pm_formats::trace::{Coding, Region};
+use pm_formats::vocabulary::measure;
 use pm_formats::{
     BlockMeta, Bounds, Header, Kind, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step,
 };
@@ -55,7 +56,7 @@ fn header(program: &str) -> Header {
 }
 
 fn stages(program: &str) -> Vec<StageReport> {
-    vec![StageReport::new(program).with("emitted_paths", Number::Count(12))]
+    vec![StageReport::new(program).with(measure::EMITTED_PATHS, Number::Count(12))]
 }
 
 fn written<T: Record>(record: impl Fn(u32) -> T) -> Vec<u8> {

@@ -3,6 +3,7 @@
 //! Records beyond the on-chip store are charged for every write and read that the order's own algorithm makes with a
 //! store of that size, write and read buffers included. Files of this machine are none of it.
 
+use pm_formats::vocabulary::measure;
 use pm_formats::{Number, Query};
 
 /// Bytes of a compact record: pixel and sample number in 42 bits, from which the ray is cast again, and a cell of the
@@ -183,17 +184,18 @@ impl Costs {
         let bytes = self.store.record.bytes();
         let on_chip = self.on_chip.max(self.inside_peak * bytes) + self.tables;
         let mut measures: Vec<(String, Number)> = [
-            ("peak_queries_held", Number::Count(self.peak)),
-            ("storage", Number::Bytes(self.peak * Record::Full.bytes())),
-            ("storage_compact", Number::Bytes(self.peak * Record::Compact.bytes())),
-            ("on_chip", Number::Bytes(on_chip)),
-            ("spilled_written", Number::Bytes(self.written * bytes)),
-            ("spilled_read", Number::Bytes(self.read * bytes)),
+            (measure::PEAK_QUERIES_HELD, Number::Count(self.peak)),
+            (measure::STORAGE, Number::Bytes(self.peak * Record::Full.bytes())),
+            (measure::STORAGE_COMPACT, Number::Bytes(self.peak * Record::Compact.bytes())),
+            (measure::ON_CHIP, Number::Bytes(on_chip)),
+            (measure::SPILLED_WRITTEN, Number::Bytes(self.written * bytes)),
+            (measure::SPILLED_READ, Number::Bytes(self.read * bytes)),
         ]
         .map(|(name, number)| (name.to_owned(), number))
         .into();
         if self.store.record == Record::Compact {
-            measures.push(("rays_cast_again".into(), Number::Count(self.deferred * RAYS_OF_A_COMPACT_RECORD)));
+            measures
+                .push((measure::RAYS_CAST_AGAIN.to_owned(), Number::Count(self.deferred * RAYS_OF_A_COMPACT_RECORD)));
         }
         measures.extend(self.more.iter().cloned());
         measures
@@ -243,11 +245,11 @@ mod tests {
         let measure = |name: &str| {
             costs.measures().into_iter().find(|(known, _)| known == name).map(|(_, number)| number).unwrap()
         };
-        assert_eq!(measure("peak_queries_held"), Number::Count(4));
-        assert_eq!(measure("storage"), Number::Bytes(4 * 44));
-        assert_eq!(measure("storage_compact"), Number::Bytes(4 * 9));
-        assert_eq!(measure("on_chip"), Number::Bytes(2 * 44));
-        assert_eq!(measure("spilled_written"), Number::Bytes(2 * 44));
-        assert_eq!(measure("spilled_read"), Number::Bytes(2 * 44));
+        assert_eq!(measure(measure::PEAK_QUERIES_HELD), Number::Count(4));
+        assert_eq!(measure(measure::STORAGE), Number::Bytes(4 * 44));
+        assert_eq!(measure(measure::STORAGE_COMPACT), Number::Bytes(4 * 9));
+        assert_eq!(measure(measure::ON_CHIP), Number::Bytes(2 * 44));
+        assert_eq!(measure(measure::SPILLED_WRITTEN), Number::Bytes(2 * 44));
+        assert_eq!(measure(measure::SPILLED_READ), Number::Bytes(2 * 44));
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Steinhurst, Coombe, Lastra, GI 2005, section 3.1.
 
+use pm_formats::vocabulary::OrderLabel;
 use std::fmt;
 use std::ops::Range;
 
@@ -138,11 +139,14 @@ const TILE_LEAVES: [Leaves; 2] = [Leaves::Direct, Leaves::BehindSpecular];
 
 impl fmt::Display for Generative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Scanline => f.write_str("scanline"),
-            Self::Tiled { tile } => write!(f, "tiled {tile}x{tile}"),
-            Self::DirectionBinned { tile, bins } => write!(f, "direction-binned {tile}x{tile}, bins {bins}"),
-        }
+        let label = match *self {
+            Self::Scanline => OrderLabel::new("scanline"),
+            Self::Tiled { tile } => OrderLabel { tile: Some([tile; 2]), ..OrderLabel::new("tiled") },
+            Self::DirectionBinned { tile, bins } => {
+                OrderLabel { tile: Some([tile; 2]), bins: Some(bins), ..OrderLabel::new("direction-binned") }
+            }
+        };
+        label.fmt(f)
     }
 }
 

@@ -142,6 +142,7 @@ mod tests {
     use super::super::cost::Record;
     use super::*;
     use bytemuck::Zeroable as _;
+    use pm_formats::vocabulary::measure;
 
     fn run(keys: &[u32], bytes: u64) -> Costs {
         let mut costs = Costs::new(Store { bytes, record: Record::Full });
@@ -168,12 +169,12 @@ mod tests {
         let keys: Vec<u32> = (0..300_000).map(|_| (random.unit() * random.unit() * 1e9) as u32).collect();
         let bytes = 128 << 10;
         let costs = run(&keys, bytes);
-        assert!(measure(&costs, "on_chip") <= bytes as f64);
+        assert!(measure(&costs, measure::ON_CHIP) <= bytes as f64);
         assert!(measure(&costs, "partitions") >= 300_000.0 * 44.0 / bytes as f64);
         assert!(measure(&costs, "partitions_overflowing") <= 2.0);
         let once = 300_000.0 * 44.0;
-        assert!((once..1.05 * once).contains(&measure(&costs, "spilled_written")));
-        assert_eq!(measure(&costs, "spilled_written"), measure(&costs, "spilled_read"));
+        assert!((once..1.05 * once).contains(&measure(&costs, measure::SPILLED_WRITTEN)));
+        assert_eq!(measure(&costs, measure::SPILLED_WRITTEN), measure(&costs, measure::SPILLED_READ));
         assert_eq!(measure(&costs, "prepass_rays"), 2.0 * f64::from(300_000 / 64));
     }
 
@@ -181,7 +182,7 @@ mod tests {
     fn queries_of_one_key_need_no_sorting() {
         let costs = run(&[7; 50_000], 64 << 10);
         assert_eq!(measure(&costs, "partitions_overflowing"), 0.0);
-        assert_eq!(measure(&costs, "spilled_written"), 50_000.0 * 44.0);
+        assert_eq!(measure(&costs, measure::SPILLED_WRITTEN), 50_000.0 * 44.0);
         // And in a crowd, the others are sorted as ever.
         let crowded: Vec<u32> = (0..50_000).map(|i| if i % 2 == 0 { 1 << 20 } else { i * 40 }).collect();
         assert!(measure(&run(&crowded, 64 << 10), "spilled_written") < 1.3 * 50_000.0 * 44.0);
@@ -196,8 +197,8 @@ mod tests {
         partition.decide(1000, costs.store());
         (0..1000).for_each(|key| partition.count(key));
         partition.charge(1000, &mut costs);
-        assert!(measure(&costs, "spilled_written") >= 1.8 * 44_000.0);
+        assert!(measure(&costs, measure::SPILLED_WRITTEN) >= 1.8 * 44_000.0);
         assert_eq!(measure(&costs, "partitions_overflowing"), 1.0);
-        assert!(measure(&costs, "on_chip") <= 4400.0);
+        assert!(measure(&costs, measure::ON_CHIP) <= 4400.0);
     }
 }

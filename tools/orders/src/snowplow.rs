@@ -93,6 +93,7 @@ mod tests {
     use crate::{Per, Record, Reordering};
     use bytemuck::Zeroable as _;
     use pm_formats::BlockMeta;
+    use pm_formats::vocabulary::measure;
     use pm_random::Random;
 
     #[test]
@@ -116,6 +117,6 @@ mod tests {
         let runs = 1 + out.windows(2).filter(|pair| pair[1] < pair[0]).count();
         let length = queries.len() as f64 / runs as f64 / room as f64;
         assert!((1.9..2.1).contains(&length), "{length}");
-        assert_eq!(order.measures()[0], ("peak_queries_held".into(), Number::Count(room)));
+        assert_eq!(order.measures()[0], (measure::PEAK_QUERIES_HELD.to_owned(), Number::Count(room)));
     }
 }

@@ -3,6 +3,7 @@
 use super::*;
 use bytemuck::Zeroable as _;
 use pm_curves::{Grid, hilbert_keys, morton_keys};
+use pm_formats::vocabulary::measure;
 use pm_formats::{BlockMeta, Bounds};
 use pm_random::{Random, mix};
 
@@ -146,13 +147,13 @@ fn every_order_keeps_to_its_store() {
                 "hashed beyond the store" => 37 * 8,
                 _ => 0,
             };
-            let on_chip = measure(&order, "on_chip");
+            let on_chip = measure(&order, measure::ON_CHIP);
             assert!(on_chip <= (STORAGE + tables) as f64, "{name}: {on_chip}");
-            let (written, read) = (measure(&order, "spilled_written"), measure(&order, "spilled_read"));
+            let (written, read) = (measure(&order, measure::SPILLED_WRITTEN), measure(&order, measure::SPILLED_READ));
             assert_eq!(written, read, "{name}: all that is written is read");
             let streaming = ["snowplow", "buffered", "hashed", "hashed in one bucket of one"].contains(&name);
             assert_eq!(written == 0.0, streaming, "{name}: {written} bytes spilled");
-            assert!(measure(&order, "storage") / measure(&order, "storage_compact") == 44.0 / 9.0);
+            assert!(measure(&order, measure::STORAGE) / measure(&order, measure::STORAGE_COMPACT) == 44.0 / 9.0);
         }
     }
 }
@@ -168,7 +169,7 @@ fn streaming_orders_hold_no_more_of_a_longer_stream() {
             let orders = every_order(Per::Image, UNIT, 1 << 30);
             let (_, mut order) = orders.into_iter().find(|(known, _)| *known == name).unwrap();
             pass(&mut order, &[&all]);
-            measure(&order, "peak_queries_held")
+            measure(&order, measure::PEAK_QUERIES_HELD)
         };
         let (short, long) = (peak(20_000), peak(200_000));
         assert!(long <= most && short > 0.8 * most, "{name}: {short} of 20,000, {long} of 200,000");
@@ -236,6 +237,6 @@ fn a_partition_is_the_curve() {
     assert!(pass(&mut partition, &[&all]) == pass(&mut sorted_by_hilbert(Per::Image), &[&all]));
     // What is told of it: all out and in once, of partitions that fit the store.
     let once = 20_000.0 * 44.0;
-    assert!((once..1.1 * once).contains(&measure(&partition, "spilled_written")));
+    assert!((once..1.1 * once).contains(&measure(&partition, measure::SPILLED_WRITTEN)));
     assert!(measure(&partition, "partitions") >= once / STORAGE as f64);
 }

@@ -3,6 +3,7 @@
 use super::Import;
 use super::rows::Rows;
 use super::spool::{Imported, Spool};
+use pm_formats::vocabulary::measure;
 use pm_formats::{Header, Number, Photon, StageReport, Step};
 use pm_random::Random;
 use std::io::BufRead;
@@ -44,7 +45,7 @@ pub fn photons(input: impl BufRead, import: &Import, step: Step) -> anyhow::Resu
         let refused = || row.wrong(format!("power {r}, {g}, {b}: numbers of 0 to 2^127 are needed"));
         spool.push(0, at, &photon.ok_or_else(refused)?)?;
     }
-    let stage = StageReport::new(&step.program).with("emitted_paths", Number::Count(import.emitted));
+    let stage = StageReport::new(&step.program).with(measure::EMITTED_PATHS, Number::Count(import.emitted));
     let stage = stage.with("photons", Number::Count(spool.records));
     Ok(spool.finish(Header { history: vec![step], ..Header::empty() }, stage, unused))
 }

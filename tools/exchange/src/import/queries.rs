@@ -4,6 +4,7 @@ use super::Import;
 use super::rows::{Row, Rows};
 use super::spool::{Imported, Spool};
 use crate::fault::bad_question;
+use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Material, Number, Query, StageReport, Step};
 use std::collections::HashMap;
 use std::io::BufRead;
@@ -94,7 +95,7 @@ pub fn queries(input: impl BufRead, import: &Import, step: Step) -> anyhow::Resu
         spool.push(batch.map_or(Ok(0), |column| row.whole(column, u64::MAX))?, at, &query)?;
     }
     let mut header = Header { image, materials: materials.table(), history: vec![step.clone()], ..Header::empty() };
-    header.set_meaning("order", "imported");
+    header.set_meaning(meaning::ORDER, "imported");
     let stage = StageReport::new(&step.program).with("queries", Number::Count(spool.records));
     Ok(spool.finish(header, stage, unused))
 }

@@ -5,6 +5,7 @@ use clap::Parser;
 use pm_film::film::Film;
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::TraceWriter;
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{
     Block, BlockReader, End, Header, Kind, Number, Photon, Section, StageReport, Step, Tally, decode_irradiance,
     decode_weights,
@@ -169,7 +170,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     let photons = PhotonInput::read(&args.photons)?;
     let queries = open_input(&args.queries)?.expect_kind(Kind::Queries).with_context(|| named(&args.queries))?;
-    if let Some(sample) = queries.header().meaning("sample").filter(|_| !args.image.is_empty()) {
+    if let Some(sample) = queries.header().meaning(meaning::SAMPLE).filter(|_| !args.image.is_empty()) {
         let name = named(&args.queries);
         return Err(cli::usage(format!(
             "--image: {name} is a sample ({sample}), and a part of the queries gives no picture: leave out --image"
@@ -198,7 +199,7 @@ struct PhotonInput {
 impl PhotonInput {
     fn read(path: &Path) -> anyhow::Result<Self> {
         let Whole { header, records: photons, end, tally } = cli::read_whole::<Photon>(path)?;
-        let Some(Number::Count(emitted_paths)) = end.measure("emitted_paths") else {
+        let Some(Number::Count(emitted_paths)) = end.measure(measure::EMITTED_PATHS) else {
             let name = named(path);
             bail!("{name}: the end block does not say how many paths were emitted; was it made by pm-photons?");
         };
@@ -226,8 +227,8 @@ fn gather(
     let query_header = queries.header().clone();
     let mut header = query_header.clone();
     header.regions = map.regions(args.reread);
-    header.set_meaning("map", args.structure.map.word());
-    header.set_meaning("k", args.k);
+    header.set_meaning(meaning::MAP, args.structure.map.word());
+    header.set_meaning(meaning::K, args.k);
     let inputs = vec![(args.photons.display().to_string(), photons.header.history.clone())];
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, None) });
 
@@ -261,7 +262,7 @@ fn gather(
             };
             let mut sites = PrecomputedIrradiance::new(&how, args.common.threads())?;
             header.regions = sites.lay_out(std::mem::take(&mut header.regions));
-            header.set_meaning("precomputed", &sites);
+            header.set_meaning(meaning::PRECOMPUTED, &sites);
             anyhow::Ok(sites)
         })
         .transpose()?;
@@ -438,7 +439,7 @@ fn origin(args: &Args, photons: &PhotonInput, queries: &Header, tally: Tally) ->
     if args.precomputed {
         attributes.push(("photonmap.precomputed", format!("at 1 of {} photons", args.precomputed_share)));
     }
-    attributes.extend(queries.meaning("gathers").map(|gathers| ("photonmap.gathers", gathers.to_owned())));
+    attributes.extend(queries.meaning(meaning::GATHERS).map(|gathers| ("photonmap.gathers", gathers.to_owned())));
     let commands = pm_formats::as_commands(&photons.header.history);
     attributes.extend(commands.lines().map(|command| ("photonmap.history", command.to_owned())));
     attributes

@@ -2,6 +2,7 @@
 
 use anyhow::{bail, ensure};
 use clap::Parser;
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{BLOCK_RECORDS, BlockMeta, Number, Photon, RecordWriter, StageReport};
 use pm_light::transport::{PathPhoton, PhotonPaths};
 use pm_parallel::in_order;
@@ -58,7 +59,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     header.expected_records = Some(args.number);
     header.history.push(typed.step(Some(args.seed)));
     if args.caustics {
-        header.set_meaning("photons", "caustics");
+        header.set_meaning(meaning::PHOTONS, "caustics");
     }
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
@@ -121,6 +122,6 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     drop(progress);
     let report = StageReport::new(typed.program())
         .with("photons", Number::Count(stored.get()))
-        .with("emitted_paths", Number::Count(emitted.get()));
+        .with(measure::EMITTED_PATHS, Number::Count(emitted.get()));
     output.finish(vec![report])?.commit()
 }

@@ -7,6 +7,7 @@ use anyhow::Context as _;
 use clap::Parser;
 use part::{Job, PartArgs};
 use pm_film::film::{Film, Overflow};
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{
     BLOCK_RECORDS, Bounds, Number, Photon, Query, RecordWriter, StageReport, encode_irradiance, encode_weights,
 };
@@ -192,23 +193,23 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut header = header(&scene);
     header.image = size;
     let gathers = if args.direct_visualisation { 1 } else { args.gathers };
-    header.set_meaning("order", order);
+    header.set_meaning(meaning::ORDER, order);
     if args.direct_visualisation {
-        header.set_meaning("gathers", "none: direct visualisation");
+        header.set_meaning(meaning::GATHERS, "none: direct visualisation");
     } else {
-        header.set_meaning("gathers", args.gathers);
+        header.set_meaning(meaning::GATHERS, args.gathers);
     }
     if let Some(accuracy) = args.irradiance_cache {
-        header.set_meaning("irradiance cache", accuracy);
+        header.set_meaning(meaning::IRRADIANCE_CACHE, accuracy);
     }
     if args.samples > 1 {
-        header.set_meaning("samples", args.samples);
+        header.set_meaning(meaning::SAMPLES, args.samples);
     }
     let guide = args.guide.as_ref().map(|path| read_guide(path, &header.bounds, &args.common)).transpose()?;
     let mut step = typed.step(Some(args.seed));
     if let (Some(path), Some(guide)) = (&args.guide, &guide) {
-        header.set_meaning("sampling", "guided");
-        header.set_meaning("guide", format!("{} photons, digest {}", guide.tally.records, guide.tally.digest));
+        header.set_meaning(meaning::SAMPLING, "guided");
+        header.set_meaning(meaning::GUIDE, format!("{} photons, digest {}", guide.tally.records, guide.tally.digest));
         step.inputs.push((path.display().to_string(), guide.header.history.clone()));
     }
     header.history.push(step);
@@ -335,15 +336,15 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         file.commit().with_context(|| path.display().to_string())?;
     }
     let mut report = StageReport::new(typed.program())
-        .with("eye_rays", Number::Count(counts.eye))
-        .with("gather_rays", Number::Count(counts.gather))
-        .with("gather_rays_lost", Number::Count(counts.gather_lost));
+        .with(measure::EYE_RAYS, Number::Count(counts.eye))
+        .with(measure::GATHER_RAYS, Number::Count(counts.gather))
+        .with(measure::GATHER_RAYS_LOST, Number::Count(counts.gather_lost));
     report = part.measure(report);
     if let Some(cache) = &cache {
         report = report.with("irradiance_records", Number::Count(cache.len() as u64));
     }
     if counts.eye_again > 0 {
-        report = report.with("eye_rays_again", Number::Count(counts.eye_again));
+        report = report.with(measure::EYE_RAYS_AGAIN, Number::Count(counts.eye_again));
     }
     if options.min_gather_dist > 0.0 {
         report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));

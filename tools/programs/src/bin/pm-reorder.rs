@@ -4,6 +4,7 @@ use anyhow::Context as _;
 use clap::Parser;
 use indicatif::BinaryBytes;
 use pm_curves::{Grid, hilbert_keys, morton_keys};
+use pm_formats::vocabulary::{DeferredLabel, SampleUnit, meaning};
 use pm_formats::{Block, BlockMeta, Header, Photon, Query, RecordReader, RecordWriter, StageReport, Step, Tally};
 use pm_orders::{
     Buffered, Charge, Hashed, Limits, MedianSplit, Partition, Per, Record, Reorder, Reordering, Snowplow, Sorted, Store,
@@ -124,7 +125,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut queries = RecordReader::<Query, _>::from_blocks(open_input(&args.queries)?).context(name.clone())?;
     let mut header = queries.header().clone();
     check_sample(&args, &name, &header)?;
-    header.set_meaning("deferred order", label(&args));
+    header.set_meaning(meaning::DEFERRED_ORDER, label(&args));
     let seed = (args.order == Order::Random).then_some(args.seed);
     let inputs = photons.iter().map(|photons| (photons.name.clone(), photons.history.clone())).collect();
     header.history.push(Step { inputs, ..typed.step_from(&args.queries, seed) });
@@ -146,7 +147,8 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
 /// Windows of a stream stay apart.
 fn check_sample(args: &Args, name: &str, header: &Header) -> anyhow::Result<()> {
-    let Some(sample) = header.meaning("sample").filter(|_| header.meaning("sample windows").is_some()) else {
+    let Some(sample) = header.meaning(meaning::SAMPLE).filter(|_| header.meaning(meaning::SAMPLE_WINDOWS).is_some())
+    else {
         return Ok(());
     };
     if args.per == Per::Image {
@@ -154,7 +156,7 @@ fn check_sample(args: &Args, name: &str, header: &Header) -> anyhow::Result<()> 
             "{name} holds {sample}, which stay apart: give --per batch, or take the sample after reordering"
         )));
     }
-    if header.meaning("sample of") != Some("batches") {
+    if header.meaning(meaning::SAMPLE_OF).and_then(|of| of.parse().ok()) != Some(SampleUnit::Batches) {
         args.voice.remark(format!(
             "{name} holds {sample}: the queries of each are ordered by themselves, which is not the order of all"
         ));
@@ -171,7 +173,7 @@ fn pass_on(blocks: Vec<(Block, Tally)>, output: &mut RecordWriter<Query, Output>
 }
 
 /// The order with what its result depends on, for the table of the caches.
-fn label(args: &Args) -> String {
+fn label(args: &Args) -> DeferredLabel {
     let order = match args.order {
         Order::Hilbert => "hilbert".to_owned(),
         Order::Morton => "morton".to_owned(),
@@ -183,9 +185,7 @@ fn label(args: &Args) -> String {
         Order::Snowplow => format!("snowplow {}", args.storage),
         Order::Buffered => format!("buffered {}", args.storage),
     };
-    let per = if args.per == Per::Batch { " per batch" } else { "" };
-    let record = if args.record == Record::Compact { " compact" } else { "" };
-    format!("{order}{per}{record}")
+    DeferredLabel { order, per_batch: args.per == Per::Batch, compact: args.record == Record::Compact }
 }
 
 /// Most photons of a cell.

@@ -6,6 +6,7 @@ mod cutter;
 use anyhow::Context as _;
 use clap::{ArgGroup, Parser};
 use cutter::Cutter;
+use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{Header, Number, Query, RecordReader, RecordWriter, StageReport};
 use pm_programs::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input, usage};
 use pm_random::Random;
@@ -89,8 +90,8 @@ impl Sample {
     /// Says in the header what the stream holds of the one that is read.
     fn describe(&self, args: &Args, name: &str, header: &mut Header) -> anyhow::Result<()> {
         let windows = matches!(self, Self::Windows(_));
-        if let Some(sample) = header.meaning("sample")
-            && (windows || header.meaning("sample windows").is_some())
+        if let Some(sample) = header.meaning(meaning::SAMPLE)
+            && (windows || header.meaning(meaning::SAMPLE_WINDOWS).is_some())
         {
             return Err(usage(format!("{name} is a sample already ({sample}): take the sample of the whole stream")));
         }
@@ -101,19 +102,20 @@ impl Sample {
                 let warm_up = args.warm_up;
                 header.expected_records =
                     all.map(|all| all.div_ceil(every).saturating_mul(window + u64::from(warm_up)));
-                header.set_meaning("sample", format!("windows of {window} queries after {warm_up}, 1 in {every}"));
-                header.set_meaning("sample of", "queries");
+                header
+                    .set_meaning(meaning::SAMPLE, format!("windows of {window} queries after {warm_up}, 1 in {every}"));
+                header.set_meaning(meaning::SAMPLE_OF, SampleUnit::Queries);
                 // How long the stream is, and with it their number, shows at its end only.
-                header.set_meaning("sample windows", 0);
-                header.set_meaning("sample share", window as f64 / every as f64);
+                header.set_meaning(meaning::SAMPLE_WINDOWS, 0);
+                header.set_meaning(meaning::SAMPLE_SHARE, window as f64 / every as f64);
             }
             Self::Batches(OneOf { one_of, .. }) => {
                 header.expected_records = all.map(|all| all.div_ceil(*one_of));
-                header.set_meaning("sample", format!("1 of {one_of} batches"));
+                header.set_meaning(meaning::SAMPLE, format!("1 of {one_of} batches"));
             }
             Self::Queries(OneOf { one_of, .. }) => {
                 header.expected_records = all.map(|all| all.div_ceil(*one_of));
-                header.set_meaning("sample", format!("1 of {one_of} queries"));
+                header.set_meaning(meaning::SAMPLE, format!("1 of {one_of} queries"));
             }
         }
         Ok(())
@@ -169,9 +171,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let given = queries.end()?;
     let all = given.tally.records;
     let mut report = StageReport::new(typed.program())
-        .with("queries_given", Number::Count(all))
-        .with("queries_kept", Number::Count(kept))
-        .with("share", Number::Real(kept as f64 / all.max(1) as f64));
+        .with(measure::QUERIES_GIVEN, Number::Count(all))
+        .with(measure::QUERIES_KEPT, Number::Count(kept))
+        .with(measure::SHARE, Number::Real(kept as f64 / all.max(1) as f64));
     match sample {
         Sample::Batches(_) => {
             if batches > 0 && batches_kept == 0 {
@@ -179,8 +181,9 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                     "{name}: none of its {batches} batches was kept; give fewer --batches than it has, or --queries"
                 );
             }
-            report =
-                report.with("batches_given", Number::Count(batches)).with("batches_kept", Number::Count(batches_kept));
+            report = report
+                .with(measure::BATCHES_GIVEN, Number::Count(batches))
+                .with(measure::BATCHES_KEPT, Number::Count(batches_kept));
         }
         Sample::Windows(cutter) => {
             if all > 0 && kept == 0 {
@@ -193,8 +196,8 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
                 ));
             }
             report = report
-                .with("windows", Number::Count(all.div_ceil(args.every.unwrap_or(1))))
-                .with("queries_of_warm_up", Number::Count(cutter.warm_ups));
+                .with(measure::WINDOWS, Number::Count(all.div_ceil(args.every.unwrap_or(1))))
+                .with(measure::QUERIES_OF_WARM_UP, Number::Count(cutter.warm_ups));
         }
         Sample::Queries(_) => {}
     }

@@ -6,6 +6,7 @@ use super::windowed;
 use anyhow::Context as _;
 use pm_caches::{CacheConfig, Measures, MissStream, Policy};
 use pm_formats::trace::TraceReader;
+use pm_formats::vocabulary::meaning;
 use pm_formats::{Number, StageReport};
 use pm_programs::cli::{self, OutputArgs, Progress, Typed, named, usage};
 use std::path::Path;
@@ -30,8 +31,8 @@ pub(crate) fn write(
     }
     let measures = super::for_trace(&measures, trace.header());
     let mut header = trace.header().clone();
-    let through = header.meaning("misses of").map_or(cache.to_string(), |first| format!("{first}, {cache}"));
-    header.set_meaning("misses of", through);
+    let through = header.meaning(meaning::MISSES_OF).map_or(cache.to_string(), |first| format!("{first}, {cache}"));
+    header.set_meaning(meaning::MISSES_OF, through);
     let mut step = typed.step_from(path, None);
     step.arguments = misses_to_pipe(step.arguments);
     header.history.push(step);

@@ -5,6 +5,7 @@ use super::found::Found;
 use super::{Args, asked_wrongly, sizes, traffic};
 use pm_caches::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways, WindowedRow};
 use pm_formats::trace::Region;
+use pm_formats::vocabulary::meaning;
 use pm_formats::{End, Header, as_commands};
 use pm_programs::cli::usage;
 use pm_report::Format;
@@ -36,7 +37,7 @@ impl Source {
     /// One of our traces, read to its end.
     pub(crate) fn ours(header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
-        let sample = header.meaning("sample").unwrap_or_default().to_owned();
+        let sample = header.meaning(meaning::SAMPLE).unwrap_or_default().to_owned();
         let history = as_commands(&header.history).trim_end().replace('\n', "; ").into();
         let order = order_of(header);
         Self { order, sample, history, query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
@@ -120,6 +121,11 @@ fn curve_sizes(args: &Args, curve: &CurvePoint) -> anyhow::Result<Vec<u64>> {
 }
 /// The order of the queries, as the stream tells it: `tiled 16x16, hilbert per batch`.
 fn order_of(header: &Header) -> String {
-    let parts = ["order", "deferred order"].into_iter().filter_map(|name| header.meaning(name).map(str::to_owned));
-    parts.chain(header.meaning("misses of").map(|caches| format!("misses of {caches}"))).collect::<Vec<_>>().join(", ")
+    let parts = [meaning::ORDER, meaning::DEFERRED_ORDER]
+        .into_iter()
+        .filter_map(|name| header.meaning(name).map(str::to_owned));
+    parts
+        .chain(header.meaning(meaning::MISSES_OF).map(|caches| format!("{} {caches}", meaning::MISSES_OF)))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

@@ -3,6 +3,7 @@
 use super::Args;
 use pm_exchange::bad_input;
 use pm_formats::Header;
+use pm_formats::vocabulary::meaning;
 use pm_programs::cli::usage;
 
 /// The most windows a trace may say it has.
@@ -21,13 +22,18 @@ pub(crate) struct Sample {
 /// # Errors
 /// If it makes no sense.
 pub(crate) fn sample(header: &Header) -> anyhow::Result<Option<Sample>> {
-    let Some(windows) = header.meaning("sample windows") else { return Ok(None) };
+    let Some(windows) = header.meaning(meaning::SAMPLE_WINDOWS) else { return Ok(None) };
     let windows = windows.parse().ok().filter(|&windows| windows <= MOST_WINDOWS).ok_or_else(|| {
-        bad_input(format!("the header says `sample windows` is `{windows}`: at most {MOST_WINDOWS} are expected"))
+        bad_input(format!(
+            "the header says `{name}` is `{windows}`: at most {MOST_WINDOWS} are expected",
+            name = meaning::SAMPLE_WINDOWS
+        ))
     })?;
-    let share = header.meaning("sample share").map(|share| match share.parse() {
+    let share = header.meaning(meaning::SAMPLE_SHARE).map(|share| match share.parse() {
         Ok(part) if part > 0.0 && part <= 1.0 => Ok(part),
-        _ => Err(bad_input(format!("the header says `sample share` is `{share}`: a part of 1 is expected"))),
+        _ => {
+            Err(bad_input(format!("the header says `{}` is `{share}`: a part of 1 is expected", meaning::SAMPLE_SHARE)))
+        }
     });
     Ok(Some(Sample { windows, share: share.transpose()? }))
 }

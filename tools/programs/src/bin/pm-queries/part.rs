@@ -1,5 +1,6 @@
 //! Which part of a picture's rays is cast: all, some whole batches, or windows of consecutive rays.
 
+use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, StageReport};
 use pm_light::transport::{GatherRays, Piece, RayCounts, RayPlan};
 use pm_orders::{Generative, Span};
@@ -142,18 +143,18 @@ impl Part {
             Self::All => return,
             Self::Batches { chosen, of } => {
                 let n = chosen.len();
-                (format!("{n} of {of} batches"), "batches", n, n as f64 / *of as f64)
+                (format!("{n} of {of} batches"), SampleUnit::Batches, n, n as f64 / *of as f64)
             }
             Self::Windows { plan, measured, length, warm_up } => {
                 let (n, rays) = (measured.len(), measured.iter().map(|rays| rays.end - rays.start).sum::<u64>());
                 let share = if plan.rays() == 0 { 1.0 } else { rays as f64 / plan.rays() as f64 };
-                (format!("{n} windows of {length} rays after {warm_up}"), "rays", n, share)
+                (format!("{n} windows of {length} rays after {warm_up}"), SampleUnit::Rays, n, share)
             }
         };
-        header.set_meaning("sample", sample);
-        header.set_meaning("sample of", of);
-        header.set_meaning("sample windows", windows);
-        header.set_meaning("sample share", share);
+        header.set_meaning(meaning::SAMPLE, sample);
+        header.set_meaning(meaning::SAMPLE_OF, of);
+        header.set_meaning(meaning::SAMPLE_WINDOWS, windows);
+        header.set_meaning(meaning::SAMPLE_SHARE, share);
     }
 
     /// Adds to the end block what the header does not say.
@@ -161,11 +162,14 @@ impl Part {
         match self {
             Self::All => report,
             Self::Batches { chosen, of } => report
-                .with("batches_given", Number::Count(*of))
-                .with("batches_kept", Number::Count(chosen.len() as u64)),
-            Self::Windows { plan, measured, .. } => report
-                .with("gather_rays_of_all", Number::Count(plan.rays()))
-                .with("gather_rays_measured", Number::Count(measured.iter().map(|rays| rays.end - rays.start).sum())),
+                .with(measure::BATCHES_GIVEN, Number::Count(*of))
+                .with(measure::BATCHES_KEPT, Number::Count(chosen.len() as u64)),
+            Self::Windows { plan, measured, .. } => {
+                report.with(measure::GATHER_RAYS_OF_ALL, Number::Count(plan.rays())).with(
+                    measure::GATHER_RAYS_MEASURED,
+                    Number::Count(measured.iter().map(|rays| rays.end - rays.start).sum()),
+                )
+            }
         }
     }
 }
