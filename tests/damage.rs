@@ -5,23 +5,23 @@ mod specimens;
 
 use crate::streams::check;
 use crate::support::{Folder, Outcome};
-use pm_formats::Kind;
+use pm_formats::StreamKind;
 use specimens::{specimen, table_of};
 
 /// The program that takes a kind of stream for its work, reading it from standard input.
-fn consumer(kind: Kind) -> &'static str {
+fn consumer(kind: StreamKind) -> &'static str {
     match kind {
-        Kind::Photons => "pm-gather - q.pmq -k 3",
-        Kind::Queries => "pm-reorder hilbert",
-        Kind::Trace => "pm-cachesim --sizes 1K",
+        StreamKind::Photons => "pm-gather - q.pmq -k 3",
+        StreamKind::Queries => "pm-reorder hilbert",
+        StreamKind::Trace => "pm-cachesim --sizes 1K",
     }
 }
 
 /// A folder with whole streams for the inputs that are not damaged.
 fn folder() -> Folder {
     let folder = Folder::new();
-    folder.write("map.pmp", specimen(Kind::Photons));
-    folder.write("q.pmq", specimen(Kind::Queries));
+    folder.write("map.pmp", specimen(StreamKind::Photons));
+    folder.write("q.pmq", specimen(StreamKind::Queries));
     folder
 }
 
@@ -37,7 +37,7 @@ fn refused(outcome: &Outcome, what: &str) {
     }
 }
 
-fn cut_everywhere(kind: Kind) {
+fn cut_everywhere(kind: StreamKind) {
     let (folder, stream) = (folder(), specimen(kind));
     let _ = folder.feed(consumer(kind), &stream).ok();
     for len in 0..stream.len() {
@@ -47,7 +47,7 @@ fn cut_everywhere(kind: Kind) {
     }
 }
 
-fn flip_a_bit_of_every_byte(kind: Kind) {
+fn flip_a_bit_of_every_byte(kind: StreamKind) {
     let (folder, stream) = (folder(), specimen(kind));
     for at in 0..stream.len() {
         // Each of the eight bits gets its turn.
@@ -60,37 +60,37 @@ fn flip_a_bit_of_every_byte(kind: Kind) {
 
 #[test]
 fn photons_cut_at_every_byte_are_refused() {
-    cut_everywhere(Kind::Photons);
+    cut_everywhere(StreamKind::Photons);
 }
 
 #[test]
 fn queries_cut_at_every_byte_are_refused() {
-    cut_everywhere(Kind::Queries);
+    cut_everywhere(StreamKind::Queries);
 }
 
 #[test]
 fn traces_cut_at_every_byte_are_refused() {
-    cut_everywhere(Kind::Trace);
+    cut_everywhere(StreamKind::Trace);
 }
 
 #[test]
 fn photons_with_a_flipped_bit_are_refused() {
-    flip_a_bit_of_every_byte(Kind::Photons);
+    flip_a_bit_of_every_byte(StreamKind::Photons);
 }
 
 #[test]
 fn queries_with_a_flipped_bit_are_refused() {
-    flip_a_bit_of_every_byte(Kind::Queries);
+    flip_a_bit_of_every_byte(StreamKind::Queries);
 }
 
 #[test]
 fn traces_with_a_flipped_bit_are_refused() {
-    flip_a_bit_of_every_byte(Kind::Trace);
+    flip_a_bit_of_every_byte(StreamKind::Trace);
 }
 
 #[test]
 fn the_library_refuses_every_cut_and_every_flipped_bit() {
-    for kind in [Kind::Photons, Kind::Queries, Kind::Trace] {
+    for kind in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace] {
         let mut stream = specimen(kind);
         assert!(check(&stream).unwrap().records >= 12);
         for len in 0..stream.len() {
@@ -112,15 +112,15 @@ fn the_library_refuses_every_cut_and_every_flipped_bit() {
 #[test]
 fn what_is_no_whole_stream_is_refused_by_every_reader() {
     let folder = folder();
-    for kind in [Kind::Photons, Kind::Queries, Kind::Trace] {
+    for kind in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace] {
         let whole = specimen(kind);
         let half = &whole[..whole.len() / 2];
         // Readers of every way to read: for work, as a second input, checked, shown, as text.
         let mut readers = vec![consumer(kind), "pm-view", "pm-view --check"];
         match kind {
-            Kind::Photons => readers.push("pm-gather - q.pmq --no-trace --image out.exr"),
-            Kind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch"]),
-            Kind::Trace => readers.extend(["pm-cachesim --format json"]),
+            StreamKind::Photons => readers.push("pm-gather - q.pmq --no-trace --image out.exr"),
+            StreamKind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch"]),
+            StreamKind::Trace => readers.extend(["pm-cachesim --format json"]),
         }
         for reader in readers {
             let refuses = |what: &str, bytes: &[u8]| {
@@ -140,7 +140,10 @@ fn what_is_no_whole_stream_is_refused_by_every_reader() {
             refuses("half, then a whole one", &[half, &whole].concat());
             refuses("text-mode damage", &String::from_utf8_lossy(&whole).replace("\r\n", "\n").into_bytes());
             if !reader.starts_with("pm-view") {
-                for other in [Kind::Photons, Kind::Queries, Kind::Trace].into_iter().filter(|other| *other != kind) {
+                for other in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace]
+                    .into_iter()
+                    .filter(|other| *other != kind)
+                {
                     refuses(other.plural(), &specimen(other));
                 }
             }
@@ -152,7 +155,7 @@ fn what_is_no_whole_stream_is_refused_by_every_reader() {
 #[test]
 fn the_message_tells_how_far_it_got_and_what_to_do() {
     let folder = folder();
-    let trace = specimen(Kind::Trace);
+    let trace = specimen(StreamKind::Trace);
     let outcome = folder.feed("pm-cachesim", &trace[..trace.len() - 1]);
     let line = outcome.fails(3);
     assert!(line.contains("standard input: after 3 blocks, 12 records"), "{line}");
@@ -167,7 +170,7 @@ fn the_message_tells_how_far_it_got_and_what_to_do() {
 #[test]
 fn one_damaged_trace_of_several_leaves_no_table() {
     let folder = folder();
-    let trace = specimen(Kind::Trace);
+    let trace = specimen(StreamKind::Trace);
     folder.write("whole.pmt", &trace);
     folder.write("half.pmt", &trace[..trace.len() / 2]);
     for format in ["table", "csv", "json"] {
@@ -179,7 +182,7 @@ fn one_damaged_trace_of_several_leaves_no_table() {
 #[test]
 fn a_flipped_bit_in_a_pipe_stops_every_program_after_it() {
     let folder = folder();
-    let mut queries = specimen(Kind::Queries);
+    let mut queries = specimen(StreamKind::Queries);
     let at = queries.len() * 2 / 3;
     queries[at] ^= 4;
     folder.write("bad.pmq", queries);

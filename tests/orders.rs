@@ -3,7 +3,7 @@
 use crate::streams::{check, records, sorted_records};
 use crate::support::{Folder, Outcome, same_bytes};
 use pm_formats::vocabulary::{meaning, measure};
-use pm_formats::{End, Kind, Query, RecordReader, Section};
+use pm_formats::{End, Query, RecordReader, Section, StreamKind};
 use std::fs;
 use std::io::{Read as _, Write as _};
 use std::process::Stdio;
@@ -253,7 +253,7 @@ fn samples_have_their_edges() {
     assert!(piped.text().lines().count() > 1);
     let beside = |name: &str| {
         let mut blocks = pm_formats::BlockReader::new(std::io::Cursor::new(folder.read(name))).unwrap();
-        assert_eq!(blocks.kind(), Kind::Queries);
+        assert_eq!(blocks.kind(), StreamKind::Queries);
         let mut beside = vec![];
         while let Some(block) = blocks.next_block().unwrap() {
             // A query and a weight are of one size.

@@ -1,15 +1,15 @@
 //! Streams read in process by the formats library: what they hold, and whether they are whole.
 
 use pm_formats::trace::{Access, TraceReader, TraceSink};
-use pm_formats::{BlockReader, Kind, Photon, Query, Record, RecordReader, Result, Tally};
+use pm_formats::{BlockReader, Photon, Query, Record, RecordReader, Result, StreamKind, Tally};
 
 /// All there is to check, as every program checks it: the tally of a whole stream, or what is wrong with it.
 pub(crate) fn check(stream: &[u8]) -> Result<Tally> {
     let blocks = BlockReader::new(stream)?;
     match blocks.kind() {
-        Kind::Photons => check_records::<Photon>(blocks),
-        Kind::Queries => check_records::<Query>(blocks),
-        Kind::Trace => {
+        StreamKind::Photons => check_records::<Photon>(blocks),
+        StreamKind::Queries => check_records::<Query>(blocks),
+        StreamKind::Trace => {
             let mut reader = TraceReader::from_blocks(blocks)?;
             while reader.replay_block(&mut Events::default())?.is_some() {}
             Ok(reader.end()?.tally)

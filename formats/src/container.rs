@@ -6,7 +6,7 @@ mod header;
 
 pub use block::{Block, BlockMeta, MAX_BLOCK, Section};
 pub use end::{End, Number, StageReport};
-pub use header::{Bounds, Header, Kind, Material};
+pub use header::{Bounds, Header, Material, StreamKind};
 
 use crate::digest::Tally;
 use crate::error::{Error, Result};
@@ -24,7 +24,7 @@ const PRELUDE_BYTES: usize = 24;
 /// Reads a stream block by block, whatever its records are.
 pub struct BlockReader<R> {
     input: R,
-    kind: Kind,
+    kind: StreamKind,
     header: Header,
     blocks: u64,
     records: u64,
@@ -65,8 +65,8 @@ impl<R: Read> BlockReader<R> {
         if prelude[16..24] != xxh3_64(&bytes).to_le_bytes() {
             return Err(damaged("the header does not fit its checksum"));
         }
-        let kind =
-            Kind::from_number(half(10)).ok_or(damaged("it holds records of a sort this program does not know"))?;
+        let kind = StreamKind::from_number(half(10))
+            .ok_or(damaged("it holds records of a sort this program does not know"))?;
         let header = header::decode(&bytes[16..]).ok_or(damaged("the header cannot be decoded"))?;
         Ok(Self { input, kind, header, blocks: 0, records: 0, end: None })
     }
@@ -79,16 +79,20 @@ impl<R: Read> BlockReader<R> {
 
     /// What its records are.
     #[must_use]
-    pub const fn kind(&self) -> Kind {
+    pub const fn kind(&self) -> StreamKind {
         self.kind
     }
 
     /// The stream must hold records of this kind.
     ///
     /// # Errors
-    /// [`Error::Kind`] if it holds others.
-    pub fn expect_kind(self, kind: Kind) -> Result<Self> {
-        if self.kind == kind { Ok(self) } else { Err(Error::Kind { found: self.kind.plural(), wanted: kind.plural() }) }
+    /// [`Error::WrongKind`] if it holds others.
+    pub fn expect_kind(self, kind: StreamKind) -> Result<Self> {
+        if self.kind == kind {
+            Ok(self)
+        } else {
+            Err(Error::WrongKind { found: self.kind.plural(), wanted: kind.plural() })
+        }
     }
 
     /// Number of whole blocks read so far.
@@ -175,7 +179,7 @@ impl<W: Write> BlockWriter<W> {
     ///
     /// # Errors
     /// [`Error::Io`], or [`Error::Invalid`] for a header beyond the limit.
-    pub fn new(mut output: W, kind: Kind, header: &Header) -> Result<Self> {
+    pub fn new(mut output: W, kind: StreamKind, header: &Header) -> Result<Self> {
         let record = header::encode(header)?;
         let mut bytes = Vec::with_capacity(16 + record.len());
         bytes.extend_from_slice(&MAGIC);

@@ -24,7 +24,7 @@ pub enum Error {
     },
     /// The stream holds other records than those asked for.
     #[error("the stream holds {found}, but {wanted} are needed here")]
-    Kind {
+    WrongKind {
         /// What the stream holds.
         found: &'static str,
         /// What was asked for.

@@ -39,8 +39,8 @@ pub use beside::{
     tally_beside,
 };
 pub use container::{
-    Block, BlockMeta, BlockReader, BlockWriter, Bounds, End, FORMAT_VERSION, Header, Kind, MAGIC, MAX_BLOCK, Material,
-    Number, Section, StageReport,
+    Block, BlockMeta, BlockReader, BlockWriter, Bounds, End, FORMAT_VERSION, Header, MAGIC, MAX_BLOCK, Material,
+    Number, Section, StageReport, StreamKind,
 };
 pub use digest::{Digest, Tally};
 pub use error::{Error, Result};

@@ -8,7 +8,7 @@ pub use pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
 pub use photon::Photon;
 pub use query::Query;
 
-use crate::container::{Block, BlockMeta, Header, Kind, Section};
+use crate::container::{Block, BlockMeta, Header, Section, StreamKind};
 use crate::digest::Tally;
 use crate::error::Result;
 use bytemuck::Pod;
@@ -24,7 +24,7 @@ const LEVEL: i32 = 1;
 /// A record of fixed size, a whole number of 32-bit words.
 pub trait Record: Pod {
     /// The kind of stream it makes.
-    const KIND: Kind;
+    const KIND: StreamKind;
 
     /// What is wrong with the record in a stream with this header, if anything is.
     fn problem(&self, header: &Header) -> Option<&'static str>;

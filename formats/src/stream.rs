@@ -20,7 +20,7 @@ impl<T: Record, R: Read> RecordReader<T, R> {
     /// Reads the header; the stream must hold records `T`.
     ///
     /// # Errors
-    /// As [`BlockReader::new`], and [`Error::Kind`](crate::Error::Kind).
+    /// As [`BlockReader::new`], and [`Error::WrongKind`](crate::Error::WrongKind).
     pub fn new(input: R) -> Result<Self> {
         Self::from_blocks(BlockReader::new(input)?)
     }
@@ -28,7 +28,7 @@ impl<T: Record, R: Read> RecordReader<T, R> {
     /// Goes on from a stream whose header has been read.
     ///
     /// # Errors
-    /// [`Error::Kind`](crate::Error::Kind) if it holds other records.
+    /// [`Error::WrongKind`](crate::Error::WrongKind) if it holds other records.
     pub fn from_blocks(blocks: BlockReader<R>) -> Result<Self> {
         let blocks = blocks.expect_kind(T::KIND)?;
         Ok(Self { blocks, tally: Tally::default(), beside: vec![], records: PhantomData })

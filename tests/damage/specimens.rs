@@ -5,18 +5,18 @@ use pm_formats::trace::{BlockEncoder, TraceWriter, lay_out};
 use pm_formats::trace::{Coding, Region};
 use pm_formats::vocabulary::measure;
 use pm_formats::{
-    BlockMeta, Bounds, Header, Kind, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step,
+    BlockMeta, Bounds, Header, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step, StreamKind,
 };
 
 /// Records of each of the three blocks.
 const EACH: u32 = 4;
 
 /// A stream of this kind: a header, three blocks of four records, an end block; about a kilobyte.
-pub(super) fn specimen(kind: Kind) -> Vec<u8> {
+pub(super) fn specimen(kind: StreamKind) -> Vec<u8> {
     match kind {
-        Kind::Photons => written(photon),
-        Kind::Queries => written(query),
-        Kind::Trace => trace(),
+        StreamKind::Photons => written(photon),
+        StreamKind::Queries => written(query),
+        StreamKind::Trace => trace(),
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) const MAX_RECORD: usize = 64 << 20;
 /// What the records of a stream are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[repr(u16)]
-pub enum Kind {
+pub enum StreamKind {
     /// Photons, 20 bytes each.
     Photons = 1,
     /// Gather queries, 44 bytes each.
@@ -21,7 +21,7 @@ pub enum Kind {
     Trace = 3,
 }
 
-impl Kind {
+impl StreamKind {
     /// The kind with this number, if there is one.
     #[must_use]
     pub const fn from_number(number: u16) -> Option<Self> {

@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
-use crate::container::{Header, Kind};
+use crate::container::{Header, StreamKind};
 use bytemuck::{Pod, Zeroable};
 
 /// A photon where it was stored.
@@ -76,7 +76,7 @@ impl Photon {
 }
 
 impl Record for Photon {
-    const KIND: Kind = Kind::Photons;
+    const KIND: StreamKind = StreamKind::Photons;
 
     fn problem(&self, _: &Header) -> Option<&'static str> {
         (!self.position.iter().all(|x| x.is_finite())).then_some("a photon's position is not finite")

@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::pack::{pack_direction, unpack_direction};
-use crate::container::{Header, Kind};
+use crate::container::{Header, StreamKind};
 use bytemuck::{Pod, Zeroable};
 
 /// Where a radiance estimate is wanted, and what becomes of it.
@@ -60,7 +60,7 @@ impl Query {
 }
 
 impl Record for Query {
-    const KIND: Kind = Kind::Queries;
+    const KIND: StreamKind = StreamKind::Queries;
 
     fn problem(&self, header: &Header) -> Option<&'static str> {
         if !self.position.iter().chain(&self.weight).all(|x| x.is_finite()) {

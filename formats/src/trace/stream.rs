@@ -3,7 +3,7 @@
 use super::access::{Coding, Region, TraceSink};
 use super::decode::decode_searches;
 use super::heap_walk::MAX_NODES;
-use crate::container::{Block, BlockMeta, BlockReader, BlockWriter, End, Header, Kind, StageReport};
+use crate::container::{Block, BlockMeta, BlockReader, BlockWriter, End, Header, StageReport, StreamKind};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
 use std::io::{Read, Write};
@@ -18,7 +18,7 @@ impl<R: Read> TraceReader<R> {
     /// Reads the header; the stream must be a trace.
     ///
     /// # Errors
-    /// As [`BlockReader::new`], [`Error::Kind`], and [`Error::Damaged`] for regions that make no sense.
+    /// As [`BlockReader::new`], [`Error::WrongKind`], and [`Error::Damaged`] for regions that make no sense.
     pub fn new(input: R) -> Result<Self> {
         Self::from_blocks(BlockReader::new(input)?)
     }
@@ -26,9 +26,9 @@ impl<R: Read> TraceReader<R> {
     /// Goes on from a stream whose header has been read.
     ///
     /// # Errors
-    /// [`Error::Kind`], and [`Error::Damaged`] for regions that make no sense.
+    /// [`Error::WrongKind`], and [`Error::Damaged`] for regions that make no sense.
     pub fn from_blocks(blocks: BlockReader<R>) -> Result<Self> {
-        let blocks = blocks.expect_kind(Kind::Trace)?;
+        let blocks = blocks.expect_kind(StreamKind::Trace)?;
         match check_regions(&blocks.header().regions) {
             Ok(()) => Ok(Self { blocks, tally: Tally::default() }),
             Err(what) => Err(blocks.damaged(what)),
@@ -84,7 +84,7 @@ impl<W: Write> TraceWriter<W> {
     /// As [`BlockWriter::new`], and [`Error::Invalid`] for regions that make no sense.
     pub fn new(output: W, header: &Header) -> Result<Self> {
         check_regions(&header.regions).map_err(|what| Error::Invalid(what.into()))?;
-        Ok(Self { blocks: BlockWriter::new(output, Kind::Trace, header)?, tally: Tally::default() })
+        Ok(Self { blocks: BlockWriter::new(output, StreamKind::Trace, header)?, tally: Tally::default() })
     }
 
     /// Writes a block of searches.

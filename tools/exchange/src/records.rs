@@ -1,7 +1,7 @@
 //! Records as tab-separated text, with a line of names.
 
 use pm_formats::trace::{Access, AccessKind, Region, TraceReader, TraceSink};
-use pm_formats::{BlockReader, Kind, Photon, Query, RecordReader};
+use pm_formats::{BlockReader, Photon, Query, RecordReader, StreamKind};
 use std::fmt::Write as _;
 use std::io::{Read, Write};
 
@@ -12,9 +12,9 @@ use std::io::{Read, Write};
 /// Whatever is wrong with the stream, or what `output` reports.
 pub fn records<R: Read>(stream: BlockReader<R>, limit: u64, output: &mut impl Write) -> anyhow::Result<()> {
     match stream.kind() {
-        Kind::Photons => photons(RecordReader::from_blocks(stream)?, limit, output),
-        Kind::Queries => queries(RecordReader::from_blocks(stream)?, limit, output),
-        Kind::Trace => searches(TraceReader::from_blocks(stream)?, limit, output),
+        StreamKind::Photons => photons(RecordReader::from_blocks(stream)?, limit, output),
+        StreamKind::Queries => queries(RecordReader::from_blocks(stream)?, limit, output),
+        StreamKind::Trace => searches(TraceReader::from_blocks(stream)?, limit, output),
     }
 }
 

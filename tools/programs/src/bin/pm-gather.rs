@@ -7,7 +7,7 @@ use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::TraceWriter;
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{
-    Block, BlockReader, End, Header, Kind, Number, Photon, Section, StageReport, Step, Tally, decode_irradiance,
+    Block, BlockReader, End, Header, Number, Photon, Section, StageReport, Step, StreamKind, Tally, decode_irradiance,
     decode_weights,
 };
 use pm_maps::gather::{
@@ -169,7 +169,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         return Err(cli::usage("--base is added to a picture: ask for one with --image"));
     }
     let photons = PhotonInput::read(&args.photons)?;
-    let queries = open_input(&args.queries)?.expect_kind(Kind::Queries).with_context(|| named(&args.queries))?;
+    let queries = open_input(&args.queries)?.expect_kind(StreamKind::Queries).with_context(|| named(&args.queries))?;
     if let Some(sample) = queries.header().meaning(meaning::SAMPLE).filter(|_| !args.image.is_empty()) {
         let name = named(&args.queries);
         return Err(cli::usage(format!(

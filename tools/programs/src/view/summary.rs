@@ -3,14 +3,14 @@
 use crate::cli::Progress;
 use indicatif::{BinaryBytes, HumanCount};
 use pm_formats::trace::{Access, Coding, TraceReader, TraceSink};
-use pm_formats::{BlockReader, End, Header, Kind, Number, Photon, Query, RecordReader, as_commands};
+use pm_formats::{BlockReader, End, Header, Number, Photon, Query, RecordReader, StreamKind, as_commands};
 use std::io::{self, Read, Write};
 
 /// Writes what a header says.
 ///
 /// # Errors
 /// What `output` reports.
-pub fn header(kind: Kind, header: &Header, output: &mut impl Write) -> io::Result<()> {
+pub fn header(kind: StreamKind, header: &Header, output: &mut impl Write) -> io::Result<()> {
     let mut line = |name: &str, value: String| writeln!(output, "{name:<12} {value}");
     line("stream", format!("{}, format version {}", kind.plural(), pm_formats::FORMAT_VERSION))?;
     let corner = |p: [f32; 3]| format!("({}, {}, {})", p[0], p[1], p[2]);
@@ -80,21 +80,21 @@ pub fn read_to_end<R: Read>(stream: BlockReader<R>, quiet: bool) -> pm_formats::
     };
     let mut counter = Counter(0);
     let (end, accesses) = match stream.kind() {
-        Kind::Photons => {
+        StreamKind::Photons => {
             let mut reader = RecordReader::<Photon, _>::from_blocks(stream)?;
             while let Some((meta, records)) = reader.next_block()? {
                 block(meta.batch, records.len() as u64);
             }
             (reader.end()?.clone(), None)
         }
-        Kind::Queries => {
+        StreamKind::Queries => {
             let mut reader = RecordReader::<Query, _>::from_blocks(stream)?;
             while let Some((meta, records)) = reader.next_block()? {
                 block(meta.batch, records.len() as u64);
             }
             (reader.end()?.clone(), None)
         }
-        Kind::Trace => {
+        StreamKind::Trace => {
             let mut reader = TraceReader::from_blocks(stream)?;
             while let Some(meta) = reader.replay_block(&mut counter)? {
                 block(meta.batch, meta.records.into());
