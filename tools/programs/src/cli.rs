@@ -1,22 +1,27 @@
 //! How every pm program behaves: arguments, input and output, messages, exit codes.
 
 mod choice;
+mod chooser;
 mod error;
 mod input;
+mod outcome;
 mod output;
+mod program;
 mod progress;
 mod typed;
 mod usage;
 
 pub use choice::{ChoiceParser, choice};
+pub use chooser::Chooser;
 pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
+pub use outcome::Outcome;
 pub use output::{Output, OutputArgs, create_output};
+pub use program::Program;
 pub use progress::Progress;
 pub use usage::{UsageError, usage};
 
 use clap::{Command, CommandFactory, FromArgMatches};
 use pm_formats::Step;
-use std::ffi::OsString;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -120,73 +125,20 @@ impl Typed {
 }
 
 /// Runs a program: parses its arguments, and turns its outcome into a message and an exit code.
-pub fn main<A: CommandFactory + FromArgMatches>(
+pub fn main<A: CommandFactory + FromArgMatches + 'static>(
     program: &'static str,
     run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
 ) -> ExitCode {
-    main_of(program, A::command(), run)
+    Program::derived(program).main(run)
 }
 
 /// The same with arguments that are not all known to the compiler, such as words that a registry holds.
-pub fn main_of<A: FromArgMatches>(
+pub fn main_of<A: FromArgMatches + 'static>(
     program: &'static str,
     command: Command,
     run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
 ) -> ExitCode {
-    let _ = PROGRAM.set(program.to_owned());
-    let raw: Vec<OsString> = std::env::args_os().skip(1).collect();
-    let codes = format!("{}\n\n{EXIT_CODES}", command.get_after_help().map_or(String::new(), |h| h.to_string()));
-    let command =
-        command.name(program).version(VERSION).long_version(LONG_VERSION).max_term_width(100).after_long_help(codes);
-    if let [flag, what] = &raw[..]
-        && flag == "--generate"
-    {
-        return generate(command, program, &what.to_string_lossy());
-    }
-    let typed = Typed { program, arguments: typed::lasting_arguments(&command, &raw) };
-    let matches = command.try_get_matches_from(std::iter::once(OsString::from(program)).chain(raw));
-    let arguments = matches.and_then(|matches| A::from_arg_matches(&matches));
-    let arguments = match arguments {
-        Ok(arguments) => arguments,
-        Err(error) if error.use_stderr() => {
-            // In a pipe of several programs every line says which of them speaks.
-            let message = error.render().to_string();
-            let lines = message.lines().filter(|line| !line.trim().is_empty());
-            lines.for_each(|line| say(line.strip_prefix("error: ").unwrap_or(line)));
-            return ExitCode::from(2);
-        }
-        Err(help_or_version) => {
-            // These were asked for and go to standard output, where a reader may leave early.
-            let _ = help_or_version.print();
-            return ExitCode::SUCCESS;
-        }
-    };
-    output::remove_temporary_files_on_signals();
-    error::report(run(arguments, &typed))
-}
-
-/// Prints a manual page or shell completions made from the arguments' own definition.
-fn generate(mut command: Command, program: &str, what: &str) -> ExitCode {
-    let mut text = Vec::new();
-    let done = match what {
-        "man" => clap_mangen::Man::new(command).render(&mut text),
-        "bash" | "zsh" | "fish" => {
-            use std::str::FromStr as _;
-            let shell = clap_complete::Shell::from_str(what).expect("one of the names above");
-            clap_complete::generate(shell, &mut command, program, &mut text);
-            Ok(())
-        }
-        _ => {
-            say(format!("--generate {what}: one of man, bash, zsh, fish was expected"));
-            return ExitCode::from(2);
-        }
-    };
-    let done = done.map_err(Into::into).and_then(|()| {
-        let mut output = create_output(Path::new("-"))?;
-        output.write_all(&text)?;
-        output.commit()
-    });
-    error::report(done)
+    Program::new(program, command, |matches| A::from_arg_matches(matches)).main(run)
 }
 
 /// A line on standard error that says who speaks.

@@ -1,23 +1,20 @@
-//! Outcomes: one line on standard error and an exit code.
+//! Errors as they are told: one line on standard error and an exit code.
 
 use super::output::{ReaderGone, unfinished_files};
-use super::say;
 use super::usage::UsageError;
 use pm_exchange::{BadInput, BadQuestion};
 use pm_pictures::UnknownEnding;
 use std::io;
-use std::process::ExitCode;
 
-/// Prints what went wrong, if anything, and chooses the exit code.
-pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
-    let Err(error) = outcome else { return ExitCode::SUCCESS };
+/// The exit code, and what went wrong, if anything.
+pub(super) fn report(outcome: anyhow::Result<()>) -> (u8, Option<String>) {
+    let Err(error) = outcome else { return (0, None) };
     if is_reader_gone(&error) {
         let files = unfinished_files();
         if files.is_empty() {
-            return ExitCode::SUCCESS;
+            return (0, None);
         }
-        say(format!("the reader of standard output left early: {} not written", files.join(", ")));
-        return ExitCode::from(1);
+        return (1, Some(format!("the reader of standard output left early: {} not written", files.join(", "))));
     }
     // Causes are joined on one line; a library that repeats its cause in its own message is not quoted twice.
     let mut text = String::new();
@@ -30,17 +27,17 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> ExitCode {
             text.push_str(&cause);
         }
     }
-    say(text);
     let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    if found(|cause| cause.is::<UsageError>() || cause.is::<BadQuestion>() || cause.is::<UnknownEnding>()) {
-        ExitCode::from(2)
+    let code = if found(|cause| cause.is::<UsageError>() || cause.is::<BadQuestion>() || cause.is::<UnknownEnding>()) {
+        2
     } else if is_bad_input(&error)
         || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))
     {
-        ExitCode::from(3)
+        3
     } else {
-        ExitCode::from(1)
-    }
+        1
+    };
+    (code, Some(text))
 }
 
 fn is_reader_gone(error: &anyhow::Error) -> bool {
