@@ -11,7 +11,7 @@ BIN := target/release
 .PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check full-size causes stability bench man clean
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{11\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
 
 include scripts/orders.mk
 include scripts/sweep.mk
@@ -31,20 +31,16 @@ run: $(ORDERS:%=out/%.csv) out/cornell.exr ## The five orders compared: a table,
 	@echo
 	@echo "Picture: out/cornell.exr (linear), out/cornell.png (preview). Streams: out/*.pmp, *.pmq, *.pmt; see pm-view."
 
-# The programs are made first, but a newer program does not make finished streams old: `make clean` starts anew.
-out/map.pmp out/scanline.pmq out/tiled.pmq: | programs out
+TAKEN += $(ORDERS) soft
 
-out:
-	mkdir -p out
-
-out/map.pmp:
+out/map.pmp: $(call made_with,PHOTONS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-photons -n $(PHOTONS) -t $(THREADS) -o $@
 
-out/scanline.pmq out/direct.exr &: | programs out
+out/scanline.pmq out/direct.exr &: $(call made_with,SIZE GATHERS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --gathers $(GATHERS) -t $(THREADS) \
 	    --no-caustics --base out/direct.exr -o out/scanline.pmq
 
-out/tiled.pmq:
+out/tiled.pmq: $(call made_with,SIZE GATHERS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --gathers $(GATHERS) --order tiled --tile 16 -t $(THREADS) -o $@
 
 out/tiled-hilbert.pmq: out/tiled.pmq
@@ -64,10 +60,10 @@ $(ORDERS:%=out/%.pmt): out/%.pmt: out/map.pmp out/%.pmq
 out/soft.exr: out/map.pmp out/hilbert.pmq out/direct.exr
 	$(LAUNCH) $(BIN)/pm-gather out/map.pmp out/hilbert.pmq -t $(THREADS) --no-trace --base out/direct.exr --image $@
 
-out/caustics.pmp: | programs out
+out/caustics.pmp: $(call made_with,PHOTONS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-photons --caustics -n $(PHOTONS) -t $(THREADS) -o $@
 
-out/seen.pmq: | programs out
+out/seen.pmq: $(call made_with,SIZE PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-queries --size $(SIZE) --direct-visualisation -t $(THREADS) -o $@
 
 out/cornell.exr out/cornell.png &: out/caustics.pmp out/seen.pmq out/soft.exr
@@ -98,9 +94,11 @@ include scripts/coverage.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 
+TAKEN += scenes
+
 scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere
 
-out/scenes/%.obj: | programs
+out/scenes/%.obj: $(call made_with,PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-scene $* -q -o out/scenes
 
 # ---- checks ---------------------------------------------------------------------------------------------------------
@@ -122,9 +120,10 @@ bench: ## Speed, as ratios measured side by side
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder sample gather cachesim chart view scene; do \
+	for program in photons queries reorder sample gather cachesim chart view scene sweep; do \
 	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
 	done
 
 clean: ## Remove out/
+	@if [ -x $(BIN)/pm-sweep ] && [ -d out ]; then $(BIN)/pm-sweep hold out --by $$PPID --what 'make clean'; fi
 	rm -rf out

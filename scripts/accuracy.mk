@@ -2,6 +2,7 @@
 # its rows in out/accuracy/NAME.csv.
 
 ACCURACY := out/accuracy
+TAKEN += accuracy
 KNOWN := scripts/accuracy.csv
 SCENE_furnace := scenes/furnace.obj
 SCENE_sphere := out/scenes/sphere.obj
@@ -48,7 +49,7 @@ $(BOXES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $(ACCURACY)/%.pmp
 $(ACCURACY) $(ACCURACY)/scenes:
 	mkdir -p $@
 
-$(patsubst %,$(ACCURACY)/%.pmp,furnace sphere grey mm far $(BOXES)): $(ACCURACY)/%.pmp: $$(SCENE_$$*) | programs $(ACCURACY)
+$(patsubst %,$(ACCURACY)/%.pmp,furnace sphere grey mm far $(BOXES)): $(ACCURACY)/%.pmp: $$(SCENE_$$*) $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q $< -n $(if $(filter box-%,$*),300000,1000000) -t $(THREADS) -o $@
 
 $(PICTURES:%=$(ACCURACY)/%.csv): $(ACCURACY)/%.csv: $(ACCURACY)/%.exr
@@ -68,7 +69,7 @@ $(foreach at,mm far,$(ACCURACY)/scenes/furnace-$(at).obj $(ACCURACY)/scenes/corn
 	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).obj > $@
 
 # Sixteen maps tell the flux and its standard error.
-$(BATCHES:%=$(ACCURACY)/flux-%.pmp): $(ACCURACY)/flux-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+$(BATCHES:%=$(ACCURACY)/flux-%.pmp): $(ACCURACY)/flux-%.pmp: $(SCENE_box) $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q $< -n 65536 --seed $* -t $(THREADS) -o $@
 
 $(BATCHES:%=$(ACCURACY)/flux-%.csv): %.csv: %.pmp
@@ -79,7 +80,7 @@ $(ACCURACY)/flux.csv: $(BATCHES:%=$(ACCURACY)/flux-%.csv)
 
 # The map itself at edges and corners, where there is little light and few photons: eight maps of a million.
 EDGES := 1 2 3 4 5 6 7 8
-$(EDGES:%=$(ACCURACY)/edges-%.pmp): $(ACCURACY)/edges-%.pmp: $(SCENE_box) | programs $(ACCURACY)
+$(EDGES:%=$(ACCURACY)/edges-%.pmp): $(ACCURACY)/edges-%.pmp: $(SCENE_box) $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q $< -n 1000000 --seed $* -t $(THREADS) -o $@
 
 $(EDGES:%=$(ACCURACY)/edges-%.exr): %.exr: %.pmp
@@ -98,10 +99,10 @@ CACHE_cached := $(CACHE_full) --irradiance-cache 0.1
 $(ACCURACY)/cached.exr $(ACCURACY)/full.exr: $(ACCURACY)/%.exr: $(ACCURACY)/cornell.pmp
 	$(call picture,$(CACHE_$*) $(if $(filter full,$*),--gathers 25),$<)
 
-$(ACCURACY)/cornell.pmp: | programs $(ACCURACY)
+$(ACCURACY)/cornell.pmp: $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q -n 100000 -t $(THREADS) -o $@
 
-$(ACCURACY)/cached-searches.csv $(ACCURACY)/full-searches.csv: $(ACCURACY)/%-searches.csv: | programs $(ACCURACY)
+$(ACCURACY)/cached-searches.csv $(ACCURACY)/full-searches.csv: $(ACCURACY)/%-searches.csv: $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) sh -c '$(BIN)/pm-queries -q $(CACHE_$*) -t $(THREADS) | $(BIN)/pm-view -q --check | awk -F "whole, " "{ print \"name,r,g,b\"; print \"searches,\" \$$2 + 0 \",,\" }"' > $@
 
 $(ACCURACY)/powers.csv: scripts/powers.awk | $(ACCURACY)
@@ -110,5 +111,5 @@ $(ACCURACY)/powers.csv: scripts/powers.awk | $(ACCURACY)
 $(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
 	$(LAUNCH) awk -v mean=1 -f scripts/powers.awk $< > $@
 
-$(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv | programs
+$(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv $(call made_with,PROGRAMS)
 	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | awk -v mean=1 -f scripts/powers.awk -' > $@

@@ -6,6 +6,7 @@
 COVERAGE_SEEDS := 1000
 COVERAGE_ORDERS := scanline tiled binned binned-hashed tiled-hilbert
 COVERAGE_SIZE := --size 64x64
+TAKEN += coverage
 
 # Windows of searches and their warm-up. Of tiled-hilbert, the picture is one of many tiles.
 COVERAGE_scanline := --window 100 --warm-up 40
@@ -19,19 +20,21 @@ coverage: out/coverage.csv ## How often intervals of samples hold the truth, ove
 	@awk -f scripts/coverage.awk $<
 	@cmp -s $< scripts/coverage.csv || echo 'The report shows other numbers: cp $< scripts/coverage.csv'
 
-out/coverage/map.pmp: | programs
+out/coverage/map.pmp: $(call made_with,PROGRAMS)
 	mkdir -p $(@D)
 	$(LAUNCH) $(BIN)/pm-photons -n 100000 -t $(THREADS) -o $@
 
-out/coverage/coverage: | programs
+out/coverage/coverage: $(call made_with,PROGRAMS)
 	mkdir -p $(@D)
 	$(CARGO) build --release -p pm-programs --example coverage
 	cp $(BIN)/examples/coverage $@
 
 COVERAGE_POINTS := $(COVERAGE_ORDERS:%=out/coverage/%.csv)
+$(foreach order,$(COVERAGE_ORDERS),$(eval out/coverage/$(order).csv: \
+    $(call made_with,COVERAGE_SEEDS COVERAGE_SIZE COVERAGE_SIZE_$(order) COVERAGE_$(order))))
 $(COVERAGE_POINTS): out/coverage/%.csv: out/coverage/map.pmp out/coverage/coverage
 	$(call row,$(call ORDER_$*,$(or $(COVERAGE_SIZE_$*),$(COVERAGE_SIZE)),$<,) | pm-gather $< -t $(THREADS) | \
 	    out/coverage/coverage --order $* --seeds $(COVERAGE_SEEDS) $(COVERAGE_$*) --format csv)
 
-out/coverage.csv: $(COVERAGE_POINTS)
-	$(JOIN) $^ > $@
+out/coverage.csv: $(COVERAGE_POINTS) $(call made_with,COVERAGE_ORDERS REPORTING)
+	$(JOIN) $(inputs) -o $@

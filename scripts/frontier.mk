@@ -15,12 +15,12 @@ frontier: $(FRONTIER_CHARTS) ## Bytes on chip against total traffic, every order
 	@$(if $(BUDGET),awk -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk,echo 'Charts: $^' && awk -f scripts/least.awk) out/frontier/points.csv
 
 # What was simulated in full is only of use at the same size.
-out/frontier/points.csv: $(if $(filter 512x512,$(FRONTIER_SIZE)),out/full.csv) out/frontier.csv scripts/frontier.awk
+out/frontier/points.csv: $(if $(filter 512x512,$(FRONTIER_SIZE)),out/full.csv) out/frontier.csv scripts/frontier.awk $(call made_with,FRONTIER_SIZE REPORTING)
 	awk -f scripts/frontier.awk $(filter %.csv,$^) > $@
 
 # Records of 44 bytes, and of 9 where an order has them.
 frontier_of = --only photons=$1 --only best=yes --only record=$2 --reference scripts/paper-frontier.csv
-out/frontier/%.svg: out/frontier/points.csv scripts/paper-frontier.csv
+out/frontier/%.svg: out/frontier/points.csv scripts/paper-frontier.csv $(call made_with,REPORTING)
 	pm-chart -q $< -x on_chip_bytes -y total_bytes --by series --x-scale log2 --y-scale log10 --size 1100x760 \
 	    $(call frontier_of,$(firstword $(subst -, ,$*)),$(if $(findstring compact,$*),compact,full)) \
 	    --x-label 'bytes on chip: cache, store and tables of the order, results' --y-label 'bytes of traffic: map, queries, results' \

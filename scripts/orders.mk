@@ -20,4 +20,4 @@ ORDER_snowplow = $(ORDER_scanline) | $(BIN)/pm-reorder snowplow $(3)
 ORDER_buffered = $(ORDER_scanline) | $(BIN)/pm-reorder buffered $(3)
 
 # Tables with the same columns as one.
-JOIN = awk 'FNR > 1 || NR == 1'
+JOIN = pm-sweep stack

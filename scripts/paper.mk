@@ -1,6 +1,7 @@
 # make paper: every table and figure of the paper again, sampled, and what the paper leaves out.
 
 PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards sampling failures
+TAKEN += paper references exact
 PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest sampling claims)
 # Of Figures 1 and 4; scripts/pictures.mk renders them.
 PAPER_PICTURES := $(patsubst %,out/pictures/%.png,cornell fractal columns columns-cached)
@@ -9,7 +10,7 @@ paper: out/paper/report.html ## The paper's tables and figures again, sampled, i
 	@echo "Report: $<"
 .PHONY: paper
 
-out/paper/report.html: scripts/report.toml $(PAPER_DATA) $(PAPER_PICTURES) $(wildcard scripts/paper-*.csv)
+out/paper/report.html: scripts/report.toml $(PAPER_DATA) $(PAPER_PICTURES) $(wildcard scripts/paper-*.csv) $(call made_with,REPORTING)
 	pm-chart -q --page $< -o $@
 
 out/paper/table1.csv: scripts/paper-table1.csv out/table1.csv scripts/table1.awk
@@ -29,7 +30,7 @@ out/paper/sampling.csv: out/sampling.csv scripts/sampled.awk
 	@awk -f scripts/csv.awk -f scripts/sampled.awk $< > $@
 
 # What pictures are compared with: many photons, many neighbours, many rays, another seed.
-out/references/cornell.exr out/references/cornell.base.exr &: | programs
+out/references/cornell.exr out/references/cornell.base.exr &: $(call made_with,PROGRAMS)
 	@mkdir -p $(@D)
 	$(LAUNCH) bash -euo pipefail -c 'pm-photons -q -n 2000000 --seed 7 -t $(THREADS) -o out/references/cornell.pmp && \
 	    pm-queries -q --size 48x48 --seed 7 -t $(THREADS) --gathers 400 --light-samples 64 --base out/references/cornell.base.exr | \
@@ -40,7 +41,7 @@ out/references/cornell.exr out/references/cornell.base.exr &: | programs
 VIEW := --size 48x48 --gathers 400 --vfov 40
 export VIEW_wall := $(VIEW) --eye 0,0.75,-0.1 --look-at 0,0.75,-0.5
 export VIEW_corner := $(VIEW) --eye -0.2,0.7,-0.2 --look-at -0.5,1,-0.5
-out/references/wall.exr out/references/corner.exr: out/references/%.exr: out/streams/scenes-cornell-diffuse.obj-n-50000.pmp | programs
+out/references/wall.exr out/references/corner.exr: out/references/%.exr: out/streams/scenes-cornell-diffuse.obj-n-50000.pmp $(call made_with,VIEW_wall VIEW_corner PROGRAMS)
 	@mkdir -p $(@D)
 	$(LAUNCH) bash -euo pipefail -c 'pm-queries -q scenes/cornell-diffuse.obj $(VIEW_$*) -t $(THREADS) --base out/references/$*.base.exr | \
 	    pm-gather -q $< - --no-trace -t $(THREADS) --base out/references/$*.base.exr --image $@'

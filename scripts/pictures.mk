@@ -1,6 +1,7 @@
 # make pictures: every scene, to look at.
 
 LOOK := out/pictures
+TAKEN += pictures
 PICTURED := cornell cornell-diffuse fractal columns columns-cached furnace sphere
 # Where light comes through glass or off mirrors, it has a map of its own.
 SPARKLING := cornell fractal columns columns-cached
@@ -22,10 +23,10 @@ $(LOOK)/contact-sheet.png: $(PICTURED:%=$(LOOK)/%.png)
 $(LOOK):
 	mkdir -p $@
 
-$(LOOK)/%.pmp: $$(call scene_of,$$*) | programs $(LOOK)
+$(LOOK)/%.pmp: $$(call scene_of,$$*) $(call made_with,PROGRAMS) | $(LOOK)
 	$(LAUNCH) $(BIN)/pm-photons -q $< -n 400000 -t $(THREADS) -o $@
 
-$(LOOK)/%.caustics.pmp: $$(call scene_of,$$*) | programs $(LOOK)
+$(LOOK)/%.caustics.pmp: $$(call scene_of,$$*) $(call made_with,PROGRAMS) | $(LOOK)
 	$(LAUNCH) $(BIN)/pm-photons -q $< --caustics -n 100000 -t $(THREADS) -o $@
 
 # The light that is soft, by final gather in the order of the Hilbert curve, and direct light.
@@ -33,14 +34,14 @@ soft = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $(call scene_of,$*) $(LOOK_SIZE) $(
     $(if $(filter $*,$(SPARKLING)),--no-caustics) --base $(LOOK)/$*.base.exr -t $(THREADS) | $(BIN)/pm-reorder -q hilbert | \
     $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).pmp - -k 50 --base $(LOOK)/$*.base.exr $1 --no-trace -t $(THREADS)'
 
-$(LOOK)/%.soft.exr: $(LOOK)/$$(call base_of,$$*).pmp
+$(LOOK)/%.soft.exr: $(LOOK)/$$(call base_of,$$*).pmp $(call made_with,LOOK_SIZE)
 	$(call soft,--image $@)
 
 # And what is sharp, where there is such light.
 sharp = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $(call scene_of,$*) $(LOOK_SIZE) --direct-visualisation -t $(THREADS) | \
     $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).caustics.pmp - -k 50 --kernel cone --base $(LOOK)/$*.soft.exr $1 --no-trace -t $(THREADS)'
 
-$(LOOK)/%.exr $(LOOK)/%.png: $$(if $$(filter $$*,$$(SPARKLING)),$(LOOK)/$$(call base_of,$$*).caustics.pmp $(LOOK)/$$*.soft.exr,$(LOOK)/$$*.pmp)
+$(LOOK)/%.exr $(LOOK)/%.png: $$(if $$(filter $$*,$$(SPARKLING)),$(LOOK)/$$(call base_of,$$*).caustics.pmp $(LOOK)/$$*.soft.exr,$(LOOK)/$$*.pmp) $(call made_with,LOOK_SIZE)
 	$(call $(if $(filter $*,$(SPARKLING)),sharp,soft),$(EXPOSURE_$*) --image $(LOOK)/$*.exr --image $(LOOK)/$*.png)
 
 # Kept, so that a rerun makes only what is missing.

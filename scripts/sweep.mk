@@ -1,26 +1,60 @@
 # Experiments as data: each table in scripts/sweeps names the points of a sweep, and each point is a target of its own,
-# out/SWEEP/POINT.csv; out/SWEEP.csv has all of them. scripts/sweep.awk says how a table is written.
+# out/SWEEP/POINT.csv; out/SWEEP.csv has all of them. scripts/README.md says how a table is written.
 #
 #   make out/structures/kd.hilbert.128.csv     one point
 #   make -j2 out/structures.csv                all
 #   make -j2 sweep SWEEP=my.csv                a table of your own: out/my.csv, for pm-chart
 #   make -j64 LAUNCH='srun ...' paper          on a cluster, inside an allocation
+#   make KEEP=yes out/structures.csv           without making again what older programs made
 
 SWEEP :=
-SWEEP_TABLES := $(wildcard scripts/sweeps/*.csv) $(SWEEP)
-SWEEP_NAMES := $(basename $(notdir $(SWEEP_TABLES)))
-vpath %.csv scripts/sweeps $(dir $(SWEEP))
+KEEP :=
+$(if $(filter-out yes,$(KEEP)),$(error KEEP=$(KEEP): yes or nothing is expected))
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 comma := ,
+.PHONY: always
+
+# ---- what a file was made with ---------------------------------------------------------------------------------------
+
+# $(call made_with,SIZE PHOTONS): files that are new if one of these variables has another value than it had when they were
+# written; what depends on them is made again then. PROGRAMS is the fingerprint of the programs' sources, REPORTING that of those
+# that make tables and pages of rows too; KEEP=yes takes them for unchanged.
+made_with = $(foreach name,$(if $(KEEP),$(filter-out PROGRAMS REPORTING,$1),$1),$(call watch,$(name))out/.made/$(name))
+watch = $(if $(WATCHED.$1),,$(eval WATCHED.$1 := yes)$(if $(call differ,$(value $1),$(file <out/.made/$1)),$(eval out/.made/$1: always)))
+differ = $(subst x$1,,x$2)$(subst x$2,,x$1)
+
+# `make -n` tells what would be made, and these are no news.
+only_told := $(strip $(foreach flag,n q t,$(findstring $(flag),$(firstword -$(MAKEFLAGS)))))
+quoted = '$(subst ','\'',$1)'
+out/.made/%:
+	@$(if $(only_told),,mkdir -p $(@D) && printf '%s\n' $(call quoted,$(value $*)) > $@)
+
+# What a recipe reads: its prerequisites, without those files.
+inputs = $(filter-out out/.made/%,$^)
+
+# ---- rules, for the goals that make something ------------------------------------------------------------------------
+
+# Made each time, since a variable may have another value; left alone when nothing changed, or make would begin anew. They need
+# the programs, and one make at a time has the folder.
+PLAIN := help programs test check bench man stability clean
+ifneq ($(filter-out $(PLAIN),$(MAKECMDGOALS)),)
+out/rules.mk: $(if $(MAKE_RESTARTS),,programs always)
+	@mkdir -p $(@D)
+	@$(if $(only_told),,$(BIN)/pm-sweep hold out --by $$PPID --what $(call quoted,make $(MAKECMDGOALS)) &&) \
+	    $(BIN)/pm-sweep rules $(sort $(wildcard scripts/sweeps/*.csv)) --taken '$(TAKEN)' $(if $(SWEEP),--own $(call quoted,$(SWEEP))) -o $@
+include out/rules.mk
+endif
+
+# Names that a table of one's own may not have, beside those of the tables here: other targets of make's are called so.
+TAKEN := streams
 
 # Rows appear whole or not at all. What ran is not believed when it says that it is done: there has to be a row. (A cluster's
 # launcher can say 0 for a run that never ended.)
 define row
 @mkdir -p $(@D)
 $(LAUNCH) bash -euo pipefail -c 'rows=$$($1); printf "%s\n" "$$rows"' > $@.part
-@awk 'END { if (NR < 2) { print "$@: no row came back" > "/dev/stderr"; exit 1 } }' $@.part
-@mv $@.part $@
+@pm-sweep row $@.part $@
 endef
 
 # So do streams, which the programs see to.
@@ -30,22 +64,6 @@ $(LAUNCH) bash -euo pipefail -c '$1 -o $@'
 @test -s $@ || { echo "$@: was not made" >&2; exit 1; }
 endef
 
-# Made each time, since a variable may have another value; left alone when nothing changed, or make would begin anew.
-out/sweeps/%.mk: %.csv scripts/words.csv scripts/csv.awk scripts/sweep.awk always
-	@mkdir -p $(@D)
-	@awk -v sweep=$* -f scripts/csv.awk -f scripts/sweep.awk scripts/words.csv $< > $@.part && { cmp -s $@.part $@ && rm $@.part || mv $@.part $@; }
-.PHONY: always
-
-ifneq ($(MAKECMDGOALS),clean)
-include $(SWEEP_NAMES:%=out/sweeps/%.mk)
-endif
-
-define sweep_rules
-out/$1.csv: $$(POINTS.$1)
-	@awk -v sweep=$1 -v list=1 -f scripts/csv.awk -f scripts/sweep.awk scripts/words.csv $(filter %/$1.csv $1.csv,$(SWEEP_TABLES)) | awk -f scripts/csv.awk -f scripts/join.awk > $$@
-endef
-$(foreach name,$(SWEEP_NAMES),$(eval $(call sweep_rules,$(name))))
-
-sweep: $(patsubst %,out/%.csv,$(basename $(notdir $(SWEEP)))) ## SWEEP=my.csv: the points of a table of your own, joined in out/my.csv
-	@$(if $(SWEEP),echo "$<: $$(awk 'END { print NR - 1 }' $<) rows",echo "give a table: make sweep SWEEP=my.csv (scripts/sweep.awk says how it is written)"; exit 2)
+sweep: $(OWN) ## SWEEP=my.csv: the points of a table of your own, joined in out/my.csv
+	@$(if $(OWN),echo "$<: $$(($$(wc -l < $<) - 1)) rows",echo "give a table: make sweep SWEEP=my.csv (scripts/README.md says how it is written)" >&2; exit 2)
 .PHONY: sweep

@@ -25,6 +25,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     // Never caches: it says what was accessed, not what that costs.
     ("exchange", &["random", "registry", "spool", "formats"]),
     ("report", &["registry", "size"]),
+    // Never caches or maps: it knows programs by what they print.
+    ("sweep", &["registry", "sampling"]),
 ];
 
 /// The crate of the command line, which may know all others and which none may know.

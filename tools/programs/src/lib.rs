@@ -5,4 +5,5 @@
 pub mod cli;
 pub mod map_args;
 pub mod setting;
+pub mod sweep;
 pub mod view;

@@ -1,0 +1,62 @@
+//! `pm-sweep rules`: tables become rules for make.
+
+use super::fingerprint;
+use super::tables::{self, Vocabulary, asked_wrongly};
+use crate::cli::{create_output, usage};
+use pm_sweep::Sweep;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Tables of experiments
+    tables: Vec<PathBuf>,
+    /// One more table, and its rows are those that `make sweep` makes
+    #[arg(long, value_name = "FILE")]
+    own: Option<PathBuf>,
+    /// Names that no --own table may have: make has other targets of these names
+    #[arg(long, value_name = "NAMES", value_delimiter = ' ')]
+    taken: Vec<String>,
+    #[command(flatten)]
+    vocabulary: Vocabulary,
+    /// File to write; it stays as it is where nothing changes. `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+    let words = args.vocabulary.read()?;
+    let mut sweeps: Vec<Sweep> = vec![];
+    for path in args.tables.iter().chain(&args.own) {
+        let sweep = tables::sweep(path, &words)?;
+        if let Some(other) = sweeps.iter().find(|other| other.name == sweep.name) {
+            return Err(taken(&sweep, &format!("that is {}", other.file)));
+        }
+        sweeps.push(sweep);
+    }
+    let own = args.own.as_ref().and_then(|_| sweeps.last());
+    if let Some(own) = own.filter(|own| args.taken.contains(&own.name)) {
+        return Err(taken(own, "other targets of make are called so"));
+    }
+    let mut text = format!("# Made by pm-sweep; scripts/sweep.mk has the recipes.\n{}", fingerprint::variables());
+    if let Some(own) = own {
+        text += &format!("OWN := {}\n", own.joined());
+    }
+    text += &pm_sweep::rules::rules(&sweeps, &args.vocabulary.words.display().to_string()).map_err(asked_wrongly)?;
+    if is_there(&args.output, text.as_bytes()) {
+        return Ok(());
+    }
+    let mut output = create_output(&args.output)?;
+    output.write_all(text.as_bytes())?;
+    output.commit()
+}
+
+fn taken(sweep: &Sweep, by: &str) -> anyhow::Error {
+    usage(format!("{}:1: there is a `{}` already, {by}: give the table another name", sweep.file, sweep.name))
+}
+
+/// Whether a file holds this already.
+fn is_there(path: &Path, bytes: &[u8]) -> bool {
+    path != Path::new("-") && fs::read(path).is_ok_and(|old| old == bytes)
+}
