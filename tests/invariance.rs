@@ -38,6 +38,15 @@ const MORE_DEFERRED: [&str; 11] = [
     "buffered --storage 2K --photons map.pmp --leaf-photons 100",
 ];
 
+/// These, and any order that is in neither list.
+fn more_deferred() -> Vec<String> {
+    let listed = |word: &str| DEFERRED.iter().chain(&MORE_DEFERRED).any(|line| line.split(' ').next() == Some(word));
+    let orders = pm_orders::orders();
+    let others = orders.iter().filter(|order| !listed(order.word()));
+    let others = others.map(|order| format!("{} {}", order.word(), order.forms()[0]));
+    MORE_DEFERRED.map(str::to_owned).into_iter().chain(others).collect()
+}
+
 /// Runs a command with 1, 2 and 5 threads; `get` must find the same bytes after each.
 fn same_for_any_threads(folder: &Folder, line: &str, get: impl Fn(&[u8]) -> Vec<u8>) {
     let run = |threads: u32| get(&folder.run(&format!("{line} -t {threads}")).ok().stdout);
@@ -93,12 +102,13 @@ fn queries_in_every_order(folder: &Folder) -> Vec<String> {
         folder.run("pm-photons -n 2000 -o map.pmp").ok();
     }
     let mut names = vec![];
+    let (some, all) = (DEFERRED.map(str::to_owned).to_vec(), more_deferred());
     for (g, generative) in GENERATIVE.iter().enumerate() {
         let name = format!("q{g}.pmq");
         folder.run(&format!("pm-queries {SMALL} {generative} -o {name}")).ok();
         // Scanline, tiled and direction-binned.
-        let more = if [0, 2, 6].contains(&g) { &MORE_DEFERRED[..] } else { &[] };
-        for (d, deferred) in DEFERRED.iter().chain(more).enumerate() {
+        let more = if [0, 2, 6].contains(&g) { &all[..] } else { &[] };
+        for (d, deferred) in some.iter().chain(more).enumerate() {
             let reordered = format!("q{g}-{d}.pmq");
             folder.run(&format!("pm-reorder {deferred} {name} -o {reordered}")).ok();
             names.push(reordered);

@@ -122,17 +122,8 @@ fn every_order_tells_what_it_costs() {
     let folder = folder();
     folder.run("pm-photons -n 3000 -o map.pmp").ok();
     let queries = check(&folder.read("q.pmq")).unwrap().records as f64;
-    for (order, streaming) in [
-        ("hilbert", false),
-        ("morton", false),
-        ("random", false),
-        ("leaf --photons map.pmp", false),
-        ("partition", false),
-        ("cells --photons map.pmp --leaf-photons 100", false),
-        ("hashed", true),
-        ("snowplow", true),
-        ("buffered", true),
-    ] {
+    for entry in pm_orders::orders().iter() {
+        let (order, streaming) = (format!("{} {}", entry.word(), entry.forms()[0]), entry.is_streaming());
         let full = folder.run(&format!("pm-reorder {order} --storage 256K q.pmq")).ok().stdout;
         let held = measure(&full, measure::PEAK_QUERIES_HELD);
         assert!(held > 0.0 && held <= queries && (held < queries) == streaming, "{order}: {held} of {queries}");

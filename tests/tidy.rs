@@ -16,7 +16,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("film", &["formats"]),
     ("pictures", &[]),
     ("sampling", &["random"]),
-    ("orders", &["curves", "random", "registry", "formats"]),
+    ("orders", &["curves", "random", "registry", "size", "formats"]),
     ("light", &["curves", "film", "orders", "parallel", "random", "registry", "formats"]),
     // Never light: a map is built from photons in a stream.
     ("maps", &["curves", "film", "parallel", "random", "registry", "formats"]),

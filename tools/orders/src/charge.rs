@@ -1,7 +1,6 @@
 //! What orders that hold a whole batch or image pay when it does not fit their store: by sort, by sample sort, by parts.
 
-use super::cost::{BURST_BUFFER, Costs};
-use super::partition::Partition;
+use super::{BURST_BUFFER, Costs, Partitions};
 use pm_formats::Query;
 
 /// How queries that do not fit the store are put in order.
@@ -9,7 +8,7 @@ pub enum Charge {
     /// An external merge sort.
     MergeSort,
     /// Into partitions that each fit the store, sorted when they are read back.
-    Partition(Partition),
+    Partitions(Partitions),
     /// Into so many cells, each read back as it came.
     Cells(u64),
 }
@@ -17,22 +16,22 @@ pub enum Charge {
 impl Charge {
     /// Queries have come, with these keys.
     pub(super) fn came(&mut self, queries: &[Query], keys: &[u32]) {
-        if let Self::Partition(partition) = self {
-            queries.iter().zip(keys).for_each(|(query, &key)| partition.sample(query, key));
+        if let Self::Partitions(partitions) = self {
+            queries.iter().zip(keys).for_each(|(query, &key)| partitions.sample(query, key));
         }
     }
 
     /// All have come: `n` queries.
     pub(super) fn all_came(&mut self, n: u64, costs: &Costs) {
-        if let Self::Partition(partition) = self {
-            partition.decide(n, costs.store());
+        if let Self::Partitions(partitions) = self {
+            partitions.decide(n, costs.store());
         }
     }
 
     /// A query leaves, in the order of keys.
     pub(super) fn left(&mut self, key: u32) {
-        if let Self::Partition(partition) = self {
-            partition.count(key);
+        if let Self::Partitions(partitions) = self {
+            partitions.count(key);
         }
     }
 
@@ -45,7 +44,7 @@ impl Charge {
         }
         match self {
             Self::MergeSort => costs.group(n, store.spilled_by_sort(n), store.bytes),
-            Self::Partition(partition) => partition.charge(n, costs),
+            Self::Partitions(partitions) => partitions.charge(n, costs),
             Self::Cells(cells) => {
                 // A buffer for each cell while they are written, one while they are read.
                 let buffers = (*cells + 1).min(store.fan()) * BURST_BUFFER;

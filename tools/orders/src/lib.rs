@@ -1,48 +1,33 @@
 //! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
+//!
+//! A deferred order is a file in `deferred` that implements [`Order`], and a line in [`orders`]; what it does with queries
+//! is a [`Reorder`], and [`Reordering`] applies that to a stream. [`trial`] holds what every order must pass.
 
-mod buffered;
 mod charge;
-mod cost;
-mod external;
+mod costs;
+mod deferred;
 mod generative;
-mod hashed;
 mod median_split;
-mod partition;
+mod order;
+mod partitions;
+mod reorder;
 mod reordering;
-mod snowplow;
+mod runs;
 mod sorted;
+mod store;
+pub mod trial;
 
-pub use buffered::Buffered;
 pub use charge::Charge;
-pub use cost::{BURST_BUFFER, COMPACT_RECORD, Record, Store};
+pub use costs::Costs;
+pub use deferred::orders;
 pub use generative::{Generative, Leaves, Pass, Span};
-pub use hashed::Hashed;
 pub use median_split::MedianSplit;
-pub use partition::Partition;
-pub use reordering::{Emit, Outlet, Per, Reordering};
-pub use snowplow::Snowplow;
+pub use order::{Keys, Order, Setting};
+pub use partitions::Partitions;
+pub use reorder::{Emit, Outlet, Reorder};
+pub use reordering::{Per, Reordering};
 pub use sorted::{Limits, Sorted};
-
-use pm_formats::{Number, Query};
-
-/// A deferred order of the queries of a batch. Every query pushed leaves exactly once, by the end of `drain` at the latest;
-/// after that the next batch may come.
-pub trait Reorder {
-    /// Takes queries; may let some go that it holds.
-    ///
-    /// # Errors
-    /// Those of `out`, and of temporary files.
-    fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()>;
-
-    /// Lets go all that it holds.
-    ///
-    /// # Errors
-    /// Those of `out`, and of temporary files.
-    fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()>;
-
-    /// What the order cost, for the end block.
-    fn measures(&self) -> Vec<(String, Number)>;
-}
+pub use store::{BURST_BUFFER, COMPACT_RECORD, Store, StoredQuery};
 
 #[cfg(test)]
 mod tests;

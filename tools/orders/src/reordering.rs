@@ -1,7 +1,7 @@
 //! An order at work on a stream: which queries it holds together, and how they leave.
 
-use super::Reorder;
-use pm_formats::{BLOCK_RECORDS, BlockMeta, Number, Query};
+use super::{Emit, Outlet, Reorder};
+use pm_formats::{BlockMeta, Number, Query};
 
 pm_registry::choices! {
     /// How far an order may look.
@@ -23,9 +23,6 @@ impl Per {
         }
     }
 }
-
-/// Takes what a reordering lets go: the block it belongs to, and its queries.
-pub type Emit<'a> = dyn FnMut(BlockMeta, &[Query]) -> pm_formats::Result<()> + 'a;
 
 /// An order, applied to each batch of a stream or to the image.
 pub struct Reordering {
@@ -53,7 +50,7 @@ impl Reordering {
             self.drain(emit)?;
         }
         self.held = Some(meta);
-        let mut outlet = Outlet { meta, leaving: &mut self.leaving, emit };
+        let mut outlet = Outlet::new(meta, &mut self.leaving, emit);
         self.order.push(queries, &mut outlet)?;
         outlet.flush()
     }
@@ -64,39 +61,20 @@ impl Reordering {
     /// Those of `emit`, and of the order's temporary files.
     pub fn drain(&mut self, emit: &mut Emit<'_>) -> pm_formats::Result<()> {
         let Some(meta) = self.held.take() else { return Ok(()) };
-        let mut outlet = Outlet { meta, leaving: &mut self.leaving, emit };
+        let mut outlet = Outlet::new(meta, &mut self.leaving, emit);
         self.order.drain(&mut outlet)?;
         outlet.flush()
+    }
+
+    /// The order at work.
+    #[must_use]
+    pub fn order(&self) -> &dyn Reorder {
+        &*self.order
     }
 
     /// What the order cost, for the end block.
     #[must_use]
     pub fn measures(&self) -> Vec<(String, Number)> {
-        self.order.measures()
-    }
-}
-
-/// Where queries leave an order, one after the other; they are emitted in blocks.
-pub struct Outlet<'a> {
-    meta: BlockMeta,
-    leaving: &'a mut Vec<Query>,
-    emit: &'a mut Emit<'a>,
-}
-
-impl Outlet<'_> {
-    /// A query leaves.
-    ///
-    /// # Errors
-    /// If queries cannot be emitted.
-    #[inline]
-    pub fn leave(&mut self, query: Query) -> pm_formats::Result<()> {
-        self.leaving.push(query);
-        if self.leaving.len() == BLOCK_RECORDS { self.flush() } else { Ok(()) }
-    }
-
-    fn flush(&mut self) -> pm_formats::Result<()> {
-        (self.emit)(self.meta, self.leaving)?;
-        self.leaving.clear();
-        Ok(())
+        self.order.costs().measures()
     }
 }

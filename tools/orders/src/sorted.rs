@@ -1,10 +1,8 @@
 //! Orders that sort by a key: all of a batch, or all of the image, has to be held.
 
-use super::charge::Charge;
-use super::cost::{Costs, Store};
-use super::external::Runs;
-use super::{Outlet, Reorder};
-use pm_formats::{Number, Query};
+use super::runs::Runs;
+use super::{Charge, Costs, Outlet, Reorder, Store};
+use pm_formats::Query;
 use std::path::PathBuf;
 
 /// Memory of this machine that an order may use, and where it goes beyond.
@@ -17,7 +15,7 @@ pub struct Limits {
     pub announce: Box<dyn Fn()>,
 }
 
-/// Bytes of memory for each query that is sorted: the record, its key, and key and place together.
+/// Bytes of memory for each query that is sorted: the record, its key, and key and index together.
 const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u32>() + size_of::<u64>()) as u64;
 
 /// Sorts queries by a 32-bit key; equal keys keep the order in which they came.
@@ -37,20 +35,20 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
     /// An order whose keys `key` computes, for many queries at once; `tables` are the bytes that this takes on chip.
     pub fn new(key: K, charge: Charge, store: Store, tables: u64, limits: Limits) -> Self {
         let mut costs = Costs::new(store);
-        costs.tables(tables);
+        costs.set_tables(tables);
         let runs = Runs::new(limits.folder.clone(), limits.memory);
         Self { key, charge, costs, limits, announced: false, held: vec![], runs, queries: 0 }
     }
 
-    /// What is held in memory, sorted: keys, and places among the held.
+    /// What is held in memory, sorted: keys, and indices among the held.
     fn sort_held(&mut self) -> Vec<u64> {
         let keys = (self.key)(&self.held);
         self.charge.came(&self.held, &keys);
         assert!(keys.len() <= 1 << 32, "more than 2^32 queries cannot be sorted at once");
-        // Only (key, place) is sorted; each record moves once.
-        let mut places: Vec<u64> = (0u64..).zip(keys).map(|(place, key)| u64::from(key) << 32 | place).collect();
-        places.sort_unstable();
-        places
+        // Only (key, index) is sorted; each record moves once.
+        let mut sorted: Vec<u64> = (0u64..).zip(keys).map(|(index, key)| u64::from(key) << 32 | index).collect();
+        sorted.sort_unstable();
+        sorted
     }
 
     /// Moves what is held in memory to the disk.
@@ -58,9 +56,9 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
         if !std::mem::replace(&mut self.announced, true) {
             (self.limits.announce)();
         }
-        let places = self.sort_held();
+        let sorted = self.sort_held();
         let held = &self.held;
-        self.runs.add(places.iter().map(|&place| ((place >> 32) as u32, held[(place & 0xffff_ffff) as usize])))?;
+        self.runs.add(sorted.iter().map(|&at| ((at >> 32) as u32, held[(at & 0xffff_ffff) as usize])))?;
         self.held.clear();
         Ok(())
     }
@@ -85,16 +83,16 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
     fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         let n = std::mem::take(&mut self.queries);
         if self.runs.is_empty() {
-            let places = self.sort_held();
+            let sorted = self.sort_held();
             self.charge.all_came(n, &self.costs);
-            for place in places {
-                self.charge.left((place >> 32) as u32);
-                out.leave(self.held[(place & 0xffff_ffff) as usize])?;
+            for at in sorted {
+                self.charge.left((at >> 32) as u32);
+                out.leave(self.held[(at & 0xffff_ffff) as usize])?;
             }
             self.held.clear();
         } else {
             self.spill_run()?;
-            // Its place is needed for the buffers.
+            // Its memory is needed for the buffers.
             self.held = vec![];
             self.charge.all_came(n, &self.costs);
             let charge = &mut self.charge;
@@ -107,7 +105,7 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
         Ok(())
     }
 
-    fn measures(&self) -> Vec<(String, Number)> {
-        self.costs.measures()
+    fn costs(&self) -> &Costs {
+        &self.costs
     }
 }

@@ -4,6 +4,7 @@
 
 pub mod cli;
 pub mod map_args;
+pub mod reorder;
 pub mod setting;
 pub mod sweep;
 pub mod view;

@@ -133,12 +133,12 @@ impl Values {
         }
     }
 
-    /// The name of a file, if one was given.
+    /// The file that was given, by whichever parameter takes one.
     #[must_use]
-    pub fn file_if_any(&self, name: &str) -> Option<&str> {
-        self.get(name).map(|value| match value {
-            Value::File(file) => file.as_str(),
-            _ => unfit(name),
+    pub fn file(&self) -> Option<&str> {
+        self.0.iter().find_map(|held| match &held.value {
+            Some(Value::File(file)) => Some(file.as_str()),
+            _ => None,
         })
     }
 

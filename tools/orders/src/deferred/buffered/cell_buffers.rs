@@ -1,13 +1,7 @@
-//! Buffers of variable size, one for each cell of the scene, that share a store: when it is full, the best one leaves.
-//!
-//! After Pharr, Kolb, Gershbein, Hanrahan, *Rendering Complex Scenes with Memory-Coherent Ray Tracing*, SIGGRAPH 1997
-//! (benefit over cost), and Gieseke, Heinermann, Oancea, Igel, *Buffer k-d Trees*, ICML 2014 (a buffer for each leaf).
-//! Aila and Karras, *Architecture Considerations for Tracing Incoherent Rays*, HPG 2010, found buffers of fixed size
-//! wanting.
+//! Buffers that share a store: when it is full, the best one leaves.
 
-use super::cost::{Costs, Store};
-use super::{Outlet, Reorder};
-use pm_formats::{Number, Query};
+use crate::{Costs, Outlet, Reorder, Store};
+use pm_formats::Query;
 use std::collections::VecDeque;
 
 /// Bytes of a cell's first and last query and their number, on chip.
@@ -21,7 +15,7 @@ const RECENT_SHARE: usize = 2;
 
 /// Queries wait in the buffers of their cells. The benefit of emptying one is the number of its queries, its cost what has
 /// to be fetched of the map: the same for all cells, but half of it for those that left last and their neighbours.
-pub struct Buffered<C> {
+pub(super) struct CellBuffers<C> {
     cell: C,
     buffers: Vec<VecDeque<Query>>,
     recent: VecDeque<usize>,
@@ -30,14 +24,14 @@ pub struct Buffered<C> {
     costs: Costs,
 }
 
-impl<C: Fn(&Query) -> u32> Buffered<C> {
+impl<C: Fn(&Query) -> u32> CellBuffers<C> {
     /// Buffers for cells that `cell` finds, below `cells`. Their table and the links are part of the store; `tables`
     /// are bytes besides.
-    pub fn new(cell: C, cells: u32, store: Store, tables: u64) -> Self {
+    pub(super) fn new(cell: C, cells: u32, store: Store, tables: u64) -> Self {
         let mut costs = Costs::new(store);
         let table = u64::from(cells) * CELL_BYTES;
         let room = (store.bytes.saturating_sub(table) / (store.record.bytes() + LINK_BYTES)).max(1);
-        costs.tables(table + room * LINK_BYTES + tables);
+        costs.set_tables(table + room * LINK_BYTES + tables);
         let buffers = vec![VecDeque::new(); cells.max(1) as usize];
         Self { cell, buffers, recent: VecDeque::new(), held: 0, room, costs }
     }
@@ -66,7 +60,7 @@ impl<C: Fn(&Query) -> u32> Buffered<C> {
     }
 }
 
-impl<C: Fn(&Query) -> u32> Reorder for Buffered<C> {
+impl<C: Fn(&Query) -> u32> Reorder for CellBuffers<C> {
     fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         for &query in queries {
             if self.held == self.room {
@@ -86,7 +80,7 @@ impl<C: Fn(&Query) -> u32> Reorder for Buffered<C> {
         Ok(())
     }
 
-    fn measures(&self) -> Vec<(String, Number)> {
-        self.costs.measures()
+    fn costs(&self) -> &Costs {
+        &self.costs
     }
 }

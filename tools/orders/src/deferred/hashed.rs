@@ -4,18 +4,59 @@
 //! Heidelberger, Müller, Pomeranets, Gross, *Optimized Spatial Hashing for Collision Detection of Deformable Objects*,
 //! VMV 2003.
 
-use super::cost::{Costs, Store};
-use super::{Outlet, Reorder};
+use super::CELL;
+use crate::{Costs, Order, Outlet, Reorder, Setting, Store};
 use pm_curves::Grid;
-use pm_formats::{Number, Query};
+use pm_formats::Query;
+use pm_registry::{Domain, Parameter, ParameterError, Values};
 use std::collections::VecDeque;
 
-/// Bytes of a bucket's place and number of queries, on chip.
+/// Bytes of a bucket's address and number of queries, on chip.
 const BUCKET_BYTES: u64 = 8;
+/// Cells along the scene's longest side, unless their size is said.
+const CELLS: u32 = 32;
+/// Cells beyond that number along a side are smaller than what coordinates tell apart.
+const MOST_CELLS: u32 = 1 << 24;
+
+const BUCKETS: Parameter = Parameter::new("buckets", Domain::count(1, 1 << 20), "number of buckets").or("37");
+const CAPACITY: Parameter =
+    Parameter::new("capacity", Domain::count(1, 1 << 20), "queries that a bucket holds").or("128");
+const SIDE: Parameter = Parameter {
+    help: "side of its cells, in scene units [default: 1/32 of the scene's longest side; after direction binning 1/8 \
+           serves it best]",
+    ..CELL
+};
+
+pm_registry::registered! {
+    /// Through hash buckets of cells: when one is full, the current one is emptied, then the fullest; streaming
+    pub struct Hashed = "hashed" with [BUCKETS, CAPACITY, SIDE];
+}
+
+impl Order for Hashed {
+    fn label(&self, values: &Values, _: Store) -> String {
+        format!("hashed {}x{}", values.count::<u32>(BUCKETS.name), values.count::<u32>(CAPACITY.name))
+    }
+
+    fn is_streaming(&self) -> bool {
+        true
+    }
+
+    fn forms(&self) -> &'static [&'static str] {
+        &["", "--buckets 7 --capacity 16", "--buckets 1 --capacity 1", "--cell 0.125"]
+    }
+
+    fn build(&self, setting: Setting<'_>) -> Result<Box<dyn Reorder>, ParameterError> {
+        let (values, bounds) = (setting.values, setting.bounds);
+        let grid = values.length_if_any(CELL.name).map(|side| Grid::of_side(&bounds, side, MOST_CELLS));
+        let grid = grid.unwrap_or_else(|| Grid::across(&bounds, CELLS));
+        let (buckets, capacity) = (values.count(BUCKETS.name), values.count(CAPACITY.name));
+        Ok(Box::new(HashBuckets::new(grid, buckets, capacity, setting.store)))
+    }
+}
 
 /// Queries wait in buckets until one has no room for the next. Then they leave from the current bucket until there is
 /// room; when it is empty, the fullest becomes the current one. So the window is as full as it can be.
-pub struct Hashed {
+struct HashBuckets {
     grid: Grid,
     capacity: usize,
     /// Queries, and whether they are on chip.
@@ -24,12 +65,11 @@ pub struct Hashed {
     costs: Costs,
 }
 
-impl Hashed {
+impl HashBuckets {
     /// `buckets` buckets for at most `capacity` queries each.
-    #[must_use]
-    pub fn new(grid: Grid, buckets: u32, capacity: u32, store: Store) -> Self {
+    fn new(grid: Grid, buckets: u32, capacity: u32, store: Store) -> Self {
         let mut costs = Costs::new(store);
-        costs.tables(u64::from(buckets) * BUCKET_BYTES);
+        costs.set_tables(u64::from(buckets) * BUCKET_BYTES);
         Self {
             grid,
             capacity: capacity.max(1) as usize,
@@ -60,7 +100,7 @@ fn bucket([x, y, z]: [u32; 3], buckets: usize) -> usize {
     hash as usize % buckets
 }
 
-impl Reorder for Hashed {
+impl Reorder for HashBuckets {
     fn push(&mut self, queries: &[Query], out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         for &query in queries {
             let bucket = bucket(self.grid.cell(query.position), self.buckets.len());
@@ -78,53 +118,10 @@ impl Reorder for Hashed {
         Ok(())
     }
 
-    fn measures(&self) -> Vec<(String, Number)> {
-        self.costs.measures()
+    fn costs(&self) -> &Costs {
+        &self.costs
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Per, Record, Reordering};
-    use bytemuck::Zeroable as _;
-    use pm_formats::{BlockMeta, Bounds};
-
-    /// Four cells in a row, which the hash puts into four of eight buckets.
-    fn order(capacity: u32) -> Reordering {
-        let grid = Grid::across(&Bounds { min: [0.0; 3], max: [4.0, 1.0, 1.0] }, 4);
-        let of = |x: u32| bucket([x, 0, 0], 8);
-        assert!((0..4).all(|x| (0..x).all(|y| of(x) != of(y))));
-        let store = Store { bytes: 1 << 20, record: Record::Full };
-        Reordering::new(Per::Image, Box::new(Hashed::new(grid, 8, capacity, store)))
-    }
-
-    fn pass(order: &mut Reordering, cells: &[u8]) -> Vec<u32> {
-        let queries: Vec<Query> = (0..)
-            .zip(cells)
-            .map(|(pixel, &cell)| Query { position: [f32::from(cell) + 0.5, 0.5, 0.5], pixel, ..Query::zeroed() })
-            .collect();
-        let mut out = vec![];
-        let mut emit = |_: BlockMeta, queries: &[Query]| {
-            out.extend(queries.iter().map(|query| query.pixel));
-            Ok(())
-        };
-        order.push(BlockMeta::default(), &queries, &mut emit).unwrap();
-        order.drain(&mut emit).unwrap();
-        out
-    }
-
-    #[test]
-    fn the_fullest_bucket_is_next_and_is_emptied() {
-        // Cell 1 has three queries, cell 2 two, cell 0 one.
-        assert_eq!(pass(&mut order(100), &[0, 1, 2, 1, 2, 1]), [1, 3, 5, 2, 4, 0]);
-    }
-
-    #[test]
-    fn a_full_bucket_lets_the_current_one_go_until_it_has_room() {
-        // The third query of cell 1 meets a full bucket: it is the fullest, and lets go one. The current bucket goes on
-        // to be emptied although the other is fuller by then.
-        assert_eq!(pass(&mut order(2), &[1, 1, 1, 3, 3, 3]), [0, 1, 2, 3, 4, 5]);
-        assert_eq!(pass(&mut order(2), &[3, 1, 1, 1, 3]), [1, 2, 3, 0, 4]);
-    }
-}
+mod tests;
