@@ -29,7 +29,7 @@ pub enum Generative {
 
 /// Which of a pixel's points seen are gathered for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leaves {
+pub enum VisiblePoints {
     /// All, in the order in which they are found.
     All,
     /// Only those seen directly.
@@ -38,11 +38,23 @@ pub enum Leaves {
     BehindSpecular,
 }
 
+impl VisiblePoints {
+    /// Is a point among them that is seen in mirrors or through glass, or else one that is seen directly?
+    #[must_use]
+    pub const fn include(self, behind_specular: bool) -> bool {
+        match self {
+            Self::All => true,
+            Self::Direct => !behind_specular,
+            Self::BehindSpecular => behind_specular,
+        }
+    }
+}
+
 /// What of a pixel's gather rays is cast at one visit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {
     /// From which points seen.
-    pub leaves: Leaves,
+    pub points: VisiblePoints,
     /// Into which bin of the hemisphere, counted from 0.
     pub bin: u32,
 }
@@ -51,14 +63,14 @@ impl Pass {
     /// Is it a pixel's first visit?
     #[must_use]
     pub fn is_first(self) -> bool {
-        self.leaves != Leaves::BehindSpecular && self.bin == 0
+        self.points != VisiblePoints::BehindSpecular && self.bin == 0
     }
 }
 
 /// All directions, where there are no bins.
-impl From<Leaves> for Pass {
-    fn from(leaves: Leaves) -> Self {
-        Self { leaves, bin: 0 }
+impl From<VisiblePoints> for Pass {
+    fn from(points: VisiblePoints) -> Self {
+        Self { points, bin: 0 }
     }
 }
 
@@ -83,7 +95,7 @@ impl Generative {
                 batch: row.into(),
                 row,
                 columns: 0..width,
-                pass: Leaves::All.into(),
+                pass: VisiblePoints::All.into(),
             })),
             Self::Tiled { tile } | Self::DirectionBinned { tile, .. } => self.tiles(tile, [width, height]),
         }
@@ -91,12 +103,12 @@ impl Generative {
 
     /// The passes over each batch, in order.
     pub fn passes(self) -> impl Iterator<Item = Pass> + Clone {
-        let (leaves, bins): (&[Leaves], u32) = match self {
-            Self::Scanline => (&[Leaves::All], 1),
-            Self::Tiled { .. } => (&TILE_LEAVES, 1),
-            Self::DirectionBinned { bins, .. } => (&TILE_LEAVES, bins),
+        let (points, bins): (&[VisiblePoints], u32) = match self {
+            Self::Scanline => (&[VisiblePoints::All], 1),
+            Self::Tiled { .. } => (&POINTS_OF_A_TILE, 1),
+            Self::DirectionBinned { bins, .. } => (&POINTS_OF_A_TILE, bins),
         };
-        leaves.iter().flat_map(move |&leaves| (0..bins).map(move |bin| Pass { leaves, bin }))
+        points.iter().flat_map(move |&points| (0..bins).map(move |bin| Pass { points, bin }))
     }
 
     /// Number of batches of an image.
@@ -135,7 +147,7 @@ impl Generative {
 }
 
 /// In a tile, what is seen directly, and then what is seen in mirrors and through glass.
-const TILE_LEAVES: [Leaves; 2] = [Leaves::Direct, Leaves::BehindSpecular];
+const POINTS_OF_A_TILE: [VisiblePoints; 2] = [VisiblePoints::Direct, VisiblePoints::BehindSpecular];
 
 impl fmt::Display for Generative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -174,7 +186,7 @@ mod tests {
                     last_batch = span.batch;
                     first_visits += if span.pass.is_first() { span.columns.len() } else { 0 };
                     for x in span.columns {
-                        let specular = span.pass.leaves == Leaves::BehindSpecular;
+                        let specular = span.pass.points == VisiblePoints::BehindSpecular;
                         *visits.entry((specular, span.pass.bin, span.row, x)).or_default() += 1;
                     }
                 }
@@ -199,8 +211,8 @@ mod tests {
     fn a_bin_of_all_pixels_of_a_tile_comes_before_the_next_bin() {
         let order = Generative::DirectionBinned { tile: 2, bins: 2 };
         let passes: Vec<_> =
-            order.spans([4, 2]).map(|span| (span.batch, span.pass.leaves, span.pass.bin, span.row)).collect();
-        let (direct, behind) = (Leaves::Direct, Leaves::BehindSpecular);
+            order.spans([4, 2]).map(|span| (span.batch, span.pass.points, span.pass.bin, span.row)).collect();
+        let (direct, behind) = (VisiblePoints::Direct, VisiblePoints::BehindSpecular);
         assert_eq!(passes[..4], [(0, direct, 0, 0), (0, direct, 0, 1), (0, direct, 1, 0), (0, direct, 1, 1)]);
         assert_eq!(passes[4..8], [(0, behind, 0, 0), (0, behind, 0, 1), (0, behind, 1, 0), (0, behind, 1, 1)]);
         assert_eq!(passes[8], (1, direct, 0, 0));

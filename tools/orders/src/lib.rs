@@ -20,7 +20,7 @@ pub mod trial;
 pub use charge::Charge;
 pub use costs::Costs;
 pub use deferred::orders;
-pub use generative::{Generative, Leaves, Pass, Span};
+pub use generative::{Generative, Pass, Span, VisiblePoints};
 pub use median_split::MedianSplit;
 pub use order::{Keys, Order, Setting};
 pub use partitions::Partitions;

@@ -3,8 +3,14 @@
 //! Records are placed in a fixed order of the pixels (a grid that is refined from every 16th pixel to all), so that they
 //! do not depend on the order in which queries are generated.
 
-use super::gather_rays::{GatherRays, RayCounts, query_at};
+use super::eye::VisiblePoint;
+use super::gather_rays::GatherRays;
+use super::query::query_at;
+use super::ray_counts::RayCounts;
+use super::record_rays::RecordRays;
+use super::scatter::spread_shares;
 use super::surface::SurfacePoint;
+use crate::scene::{Camera, Material};
 use glam::Vec3;
 use pm_film::irradiance::{Site, Sites};
 use pm_formats::{IrradianceRay, IrradianceRecord, PixelWeight, Query};
@@ -65,19 +71,20 @@ impl CacheRecords {
     fn visit(&mut self, rays: &GatherRays<'_>, options: CacheOptions, x: u32, y: u32) -> bool {
         let mut placed = false;
         let pixel = y * rays.size()[0] + x;
-        for leaf in rays.leaves(x, y) {
-            let (position, normal) = (leaf.point.position, leaf.point.facing);
-            if !rays.caches(&leaf) || self.sites.serves(position, normal) {
+        for visible in cacheable(rays, x, y) {
+            let VisiblePoint { point, distance, behind_specular, .. } = visible;
+            let (position, normal) = (point.position, point.facing);
+            if self.sites.serves(position, normal) {
                 continue;
             }
-            let spacing = leaf.distance * rays.pixel_angle();
+            let spacing = distance * pixel_angle(rays.camera());
             let [least, greatest] = options.spacing.map(|pixels| pixels * spacing / options.accuracy);
-            let id = self.origins.len() as u32;
-            let inverse: f64 =
-                (0..rays.gathers()).map(|sample| 1.0 / f64::from(rays.length(&leaf.point, id, sample))).sum();
-            let mean = (f64::from(rays.gathers()) / inverse) as f32;
+            let of_record = RecordRays { rays, point: &point, id: self.origins.len() as u32 };
+            let gathers = rays.options.gathers;
+            let inverse: f64 = (0..gathers).map(|stratum| 1.0 / f64::from(of_record.length(stratum))).sum();
+            let mean = (f64::from(gathers) / inverse) as f32;
             self.sites.add(Site { position, normal, radius: mean.clamp(least, greatest), least });
-            self.origins.push(Origin { pixel, point: leaf.point, behind_specular: leaf.behind_specular });
+            self.origins.push(Origin { pixel, point, behind_specular });
             placed = true;
         }
         placed
@@ -107,18 +114,19 @@ impl CacheRecords {
     pub fn record(&self, rays: &GatherRays<'_>, id: u32) -> IrradianceRecord {
         let site = &self.sites.sites()[id as usize];
         let Origin { pixel, point, .. } = &self.origins[id as usize];
-        let ray = |sample: u32| {
+        let of_record = RecordRays { rays, point, id };
+        let ray = |stratum: u32| {
             let mut light = Vec3::ZERO;
-            let _ = rays.record_ray(point, id, sample, &mut |radiance| light += radiance, &mut RayCounts::default());
-            IrradianceRay { length: rays.length(point, id, sample), light: light.into() }
+            let _ = of_record.cast(stratum, &mut |radiance| light += radiance, &mut RayCounts::default());
+            IrradianceRay { length: of_record.length(stratum), light: light.into() }
         };
         IrradianceRecord {
             pixel: *pixel,
             position: site.position.into(),
             normal: site.normal.into(),
             radius: site.radius,
-            strata: rays.strata().into(),
-            rays: (0..rays.gathers()).map(ray).collect(),
+            strata: rays.strata.shape().into(),
+            rays: (0..rays.options.gathers).map(ray).collect(),
         }
     }
 
@@ -131,12 +139,12 @@ impl CacheRecords {
         mut query: impl FnMut(Query),
         counts: &mut RayCounts,
     ) {
-        let point = &self.origins[id as usize].point;
-        for &sample in strata {
+        let of_record = RecordRays { rays, point: &self.origins[id as usize].point, id };
+        for &stratum in strata {
             counts.gather += 1;
-            match rays.record_ray(point, id, sample, &mut |_| {}, counts) {
+            match of_record.cast(stratum, &mut |_| {}, counts) {
                 Some(end) => {
-                    let at = query_at(&end.point, end.view, id, sample, end.weight);
+                    let at = query_at(&end.point, end.view, id, stratum, end.weight);
                     query(Query { flags: Query::FOR_RECORD, ..at });
                 }
                 None => counts.gather_lost += 1,
@@ -147,13 +155,14 @@ impl CacheRecords {
     /// What a pixel takes of the records.
     pub fn weights(&self, rays: &GatherRays<'_>, x: u32, y: u32, mut weight: impl FnMut(PixelWeight)) {
         let pixel = y * rays.size()[0] + x;
-        for leaf in rays.leaves(x, y).iter().filter(|leaf| rays.caches(leaf)) {
-            let (position, normal) = (leaf.point.position, leaf.point.facing);
+        for visible in cacheable(rays, x, y) {
+            let (position, normal) = (visible.point.position, visible.point.facing);
             let mut serving = vec![];
             self.sites.serving(position, normal, |id, weight| serving.push((id, weight)));
             let total: f32 = serving.iter().map(|&(_, weight)| weight).sum();
             // Reflected radiance is irradiance times reflectance over pi.
-            let share = leaf.share * rays.reflectance(leaf) / std::f32::consts::PI;
+            let (reflectance, _) = spread_shares(rays.material(&visible));
+            let share = visible.share * reflectance / std::f32::consts::PI;
             for (record, own) in serving {
                 let site = &self.sites.sites()[record as usize];
                 weight(PixelWeight {
@@ -166,4 +175,21 @@ impl CacheRecords {
             }
         }
     }
+}
+
+/// Can a surface's reflected light be told from its irradiance alone? Not where it has a glossy lobe.
+pub(super) fn may_be_cached(material: &Material) -> bool {
+    let (diffuse, lobe) = spread_shares(material);
+    diffuse.max_element() > 0.0 && lobe.max_element() <= 0.0
+}
+
+/// The points seen in a pixel whose irradiance may be cached, in order.
+fn cacheable(rays: &GatherRays<'_>, x: u32, y: u32) -> impl Iterator<Item = VisiblePoint> {
+    let (points, _) = rays.see([x, y], &mut |_| {});
+    points.into_iter().filter(|visible| may_be_cached(rays.material(visible)))
+}
+
+/// Angle between the middles of neighbouring pixels, in radians.
+fn pixel_angle(camera: &Camera) -> f32 {
+    (2.0 * libm::tan(camera.vfov().to_radians() / 2.0) / f64::from(camera.size()[1])) as f32
 }

@@ -1,17 +1,16 @@
 //! What is seen through a pixel: eye rays, followed through mirrors and glass to points to gather for.
 
-use super::Purpose;
-use super::photon_paths::patience;
-use super::reflection::spreads;
+use super::purpose::Purpose;
+use super::roulette::patience;
 use super::sampling::grid;
-use super::scatter::{Specular, specular};
-use super::surface::{Stage, SurfacePoint};
+use super::scatter::{choose, specular, spreads};
+use super::surface::{SurfacePoint, Surfaces};
 use crate::scene::Camera;
 use glam::Vec3;
 use pm_random::Random;
 
 /// A point seen, with what share of its radiance the pixel gets.
-pub(super) struct Leaf {
+pub(super) struct VisiblePoint {
     pub(super) point: SurfacePoint,
     /// Unit vector back to the viewer.
     pub(super) view: Vec3,
@@ -39,13 +38,13 @@ impl Eye {
     /// Returns the number of rays.
     pub(super) fn see(
         &self,
-        stage: &Stage<'_>,
+        surfaces: &Surfaces<'_>,
         x: u32,
         y: u32,
-        leaves: &mut Vec<Leaf>,
+        points: &mut Vec<VisiblePoint>,
         light: &mut impl FnMut(Vec3),
     ) -> u64 {
-        (0..self.samples).map(|sample| self.see_sample(stage, x, y, sample, leaves, light)).sum()
+        (0..self.samples).map(|sample| self.see_sample(surfaces, x, y, sample, points, light)).sum()
     }
 
     /// Where in a pixel an eye ray goes: its middle if it is the only one, else a random point of the sample's own cell of
@@ -63,11 +62,11 @@ impl Eye {
 
     fn see_sample(
         &self,
-        stage: &Stage<'_>,
+        surfaces: &Surfaces<'_>,
         x: u32,
         y: u32,
         sample: u32,
-        leaves: &mut Vec<Leaf>,
+        points: &mut Vec<VisiblePoint>,
         light: &mut impl FnMut(Vec3),
     ) -> u64 {
         let pixel = y * self.camera.size()[0] + x;
@@ -81,14 +80,21 @@ impl Eye {
         let mut rays = vec![(eye, direction, Vec3::ONE / self.samples as f32, SPLITS, 0u32, 0f32)];
         while let Some((origin, direction, share, splits, hits, length)) = rays.pop() {
             count += 1;
-            let Some(point) = stage.hit(origin, direction) else { continue };
+            let Some(point) = surfaces.hit(origin, direction) else { continue };
             let distance = length + origin.distance(point.position);
-            let material = stage.material(&point);
+            let material = surfaces.material(&point);
             if material.emits() && point.facing == point.front {
                 light(share * Vec3::from(material.emission));
             }
             if spreads(material) {
-                leaves.push(Leaf { point, view: -direction, share, behind_specular: hits > 0, distance, number });
+                points.push(VisiblePoint {
+                    point,
+                    view: -direction,
+                    share,
+                    behind_specular: hits > 0,
+                    distance,
+                    number,
+                });
                 // However many there are, no other sample has them.
                 number += self.samples;
             }
@@ -113,20 +119,5 @@ impl Eye {
             }
         }
         count
-    }
-}
-
-/// Chooses one of the specular ways in proportion to its largest share; the weight makes up for the choice.
-pub(super) fn choose(ways: [Option<Specular>; 2], random: &mut Random) -> Option<(Specular, f32)> {
-    match ways {
-        [Some(first), Some(second)] => {
-            let (a, b) = (first.share.max_element(), second.share.max_element());
-            let total = a + b;
-            if total <= 0.0 {
-                return None;
-            }
-            Some(if random.unit() * total < a { (first, total / a) } else { (second, total / b) })
-        }
-        [way, other] => way.or(other).map(|way| (way, 1.0)),
     }
 }

@@ -1,7 +1,7 @@
 //! Lights: which triangle, and where on it.
 
 use super::sampling::triangle_point;
-use super::surface::{Stage, SurfacePoint};
+use super::surface::{SurfacePoint, Surfaces};
 use crate::scene::Scene;
 use glam::Vec3;
 use pm_random::Random;
@@ -73,7 +73,7 @@ impl Lights {
     /// random so that each sample by itself is spread evenly.
     pub(super) fn reflected(
         &self,
-        stage: &Stage<'_>,
+        surfaces: &Surfaces<'_>,
         point: &SurfacePoint,
         samples: u32,
         random: &mut Random,
@@ -88,11 +88,11 @@ impl Lights {
             let chosen = self.choose((sample as f32 + random.unit()) / samples as f32);
             let along = |step: f64, shift: f32| (f64::from(sample) * step + f64::from(shift)).fract() as f32;
             let (u, v) = triangle_point(along(PLASTIC_STEPS.0, shift_u), along(PLASTIC_STEPS.1, shift_v));
-            let (target, normal) = stage.point_before(chosen.light.triangle, u, v);
+            let (target, normal) = surfaces.point_before(chosen.light.triangle, u, v);
             let way = target - point.position;
             let cosine_here = way.dot(point.facing);
             let cosine_there = -way.dot(normal);
-            if cosine_here <= 0.0 || cosine_there <= 0.0 || stage.blocked(point.start(way), target) {
+            if cosine_here <= 0.0 || cosine_there <= 0.0 || surfaces.blocked(point.start(way), target) {
                 continue;
             }
             // cos cos' / d^2 over the density 1 / area; `way` is not normalised, hence d^4.
@@ -106,9 +106,9 @@ impl Lights {
 
 impl Chosen<'_> {
     /// A point on the light, lifted off its front, and the normal there.
-    pub(super) fn point(&self, stage: &Stage<'_>, random: &mut Random) -> (Vec3, Vec3) {
+    pub(super) fn point(&self, surfaces: &Surfaces<'_>, random: &mut Random) -> (Vec3, Vec3) {
         let (u, v) = triangle_point(random.unit(), random.unit());
-        stage.point_before(self.light.triangle, u, v)
+        surfaces.point_before(self.light.triangle, u, v)
     }
 
     /// Flux of the light over the probability that it was chosen, in watts.

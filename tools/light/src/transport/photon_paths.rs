@@ -3,12 +3,13 @@
 //! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, chapter 5. Photons carry flux; at each diffuse hit one
 //! is stored, the first hit included, and then the path goes on with a probability equal to the largest reflectance.
 
-use super::Purpose;
 use super::lights::Lights;
-use super::reflection::{Reflection, spread_shares, spreads};
+use super::purpose::Purpose;
+use super::reflection::Reflection;
+use super::roulette::{patience, survive};
 use super::sampling::cosine_direction;
-use super::scatter::specular;
-use super::surface::Stage;
+use super::scatter::{specular, spread_shares, spreads};
+use super::surface::Surfaces;
 use crate::scene::Scene;
 use glam::Vec3;
 use pm_formats::Photon;
@@ -31,32 +32,16 @@ pub struct PathPhoton {
 
 /// Paths of photons through a scene.
 pub struct PhotonPaths<'a> {
-    stage: Stage<'a>,
+    surfaces: Surfaces<'a>,
     lights: Lights,
     seed: u64,
-}
-
-/// Survival is never surer than this, so that a path in a closed white room ends.
-const MOST_CERTAIN: f32 = 0.999;
-/// Specular hits in a row after which a path may end although nothing absorbs it: light can circle in glass for ever.
-const PATIENCE: u32 = 32;
-
-/// Russian roulette: with probability `chance` (capped below 1) the weight that makes up for the other outcome.
-pub(super) fn survive(chance: f32, random: &mut Random) -> Option<f32> {
-    let chance = chance.min(MOST_CERTAIN);
-    (random.unit() < chance).then(|| 1.0 / chance)
-}
-
-/// Patience with specular hits: after many in a row a path goes on with probability 0.95.
-pub(super) fn patience(hits: u32, random: &mut Random) -> Option<f32> {
-    if hits < PATIENCE { Some(1.0) } else { survive(0.95, random) }
 }
 
 impl<'a> PhotonPaths<'a> {
     /// Paths through `scene`, a different set for each seed.
     #[must_use]
     pub fn new(scene: &'a Scene, seed: u64) -> Self {
-        Self { stage: Stage::new(scene), lights: Lights::new(scene), seed }
+        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), seed }
     }
 
     /// Follows path number `path` and gives each photon it stores to `store`, in order.
@@ -67,12 +52,12 @@ impl<'a> PhotonPaths<'a> {
         let random = &mut Random::new(&[self.seed, Purpose::PhotonPath as u64, path]);
         let light = self.lights.choose(random.unit());
         let mut power = light.path_flux();
-        let (mut origin, normal) = light.point(&self.stage, random);
+        let (mut origin, normal) = light.point(&self.surfaces, random);
         let mut direction = cosine_direction(normal, random.unit(), random.unit());
         let mut specular_hits = 0;
         let mut spread_before = false;
-        while let Some(point) = self.stage.hit(origin, direction) {
-            let material = self.stage.material(&point);
+        while let Some(point) = self.surfaces.hit(origin, direction) {
+            let material = self.surfaces.material(&point);
             let (diffuse, lobe) = spread_shares(material);
             if spreads(material) {
                 store(PathPhoton {

@@ -4,8 +4,9 @@
 //! Rays that will be lost have their places like all others, as only casting them tells. The eye rays are all cast, one
 //! for each hemisphere of gather rays: so the length of the order is known exactly, and every ray can have the same chance.
 
-use super::gather_rays::{GatherRays, RayCounts};
-use pm_orders::{Generative, Leaves, Pass, Span};
+use super::gather_rays::GatherRays;
+use super::ray_counts::RayCounts;
+use pm_orders::{Generative, Pass, Span, VisiblePoints};
 use pm_parallel::in_order;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -61,7 +62,7 @@ impl RayPlan {
     #[must_use]
     pub fn new(rays: &GatherRays<'_>, order: Generative, threads: usize, counts: &mut RayCounts) -> Self {
         let mut before_bin = vec![0];
-        for more in rays.rays_by_bin() {
+        for more in rays.strata.bin_sizes() {
             before_bin.push(before_bin[before_bin.len() - 1] + more);
         }
         let mut plan = Self { passes: order.passes().collect(), before_bin, batches: vec![], rays: 0 };
@@ -109,14 +110,14 @@ impl RayPlan {
 
     fn pieces_of_pass(&self, number: usize, pass: Pass, wanted: &Range<u64>) -> impl Iterator<Item = Piece> + use<'_> {
         let batch = &self.batches[number];
-        let points = move |[direct, behind]: [u64; 2]| match pass.leaves {
-            Leaves::All => direct + behind,
-            Leaves::Direct => direct,
-            Leaves::BehindSpecular => behind,
+        let points = move |[direct, behind]: [u64; 2]| match pass.points {
+            VisiblePoints::All => direct + behind,
+            VisiblePoints::Direct => direct,
+            VisiblePoints::BehindSpecular => behind,
         };
         // The rays of a batch are ordered by whether they begin behind specular surfaces, then by bin, then by point.
         let [before, through] = [0, 1].map(|end| self.before_bin[pass.bin as usize + end]);
-        let earlier = if pass.leaves == Leaves::BehindSpecular { batch.points[0] } else { 0 };
+        let earlier = if pass.points == VisiblePoints::BehindSpecular { batch.points[0] } else { 0 };
         let earlier = earlier * self.before_bin[self.before_bin.len() - 1] + points(batch.points) * before;
         let place = move |point: u64| batch.first + earlier + point * (through - before);
         let Range { start, end } = *wanted;
@@ -141,7 +142,11 @@ fn look(rays: &GatherRays<'_>, span: Span) -> Seen {
     let mut counts = RayCounts::default();
     let points = stretches(&span).map(|columns| {
         columns.fold([0; 2], |sum, x| {
-            let [direct, behind] = rays.points_seen([x, span.row], &mut counts);
+            let (points, eye_rays) = rays.see([x, span.row], &mut |_| {});
+            counts.eye += eye_rays;
+            counts.seen += points.len() as u64;
+            let behind = points.iter().filter(|visible| visible.behind_specular).count();
+            let [direct, behind] = [points.len() - behind, behind].map(|points| points as u64);
             [sum[0] + direct, sum[1] + behind]
         })
     });

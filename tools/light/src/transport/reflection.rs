@@ -1,8 +1,9 @@
 //! How a surface spreads light over many directions: Lambert, and Phong's lobe where it is glossy.
 
-use super::guide::Directions;
+use super::directions::Directions;
 use super::sampling::{cosine_direction, phong_direction, uniform_direction};
-use crate::scene::{Material, MaterialKind};
+use super::scatter::spread_shares;
+use crate::scene::Material;
 use glam::Vec3;
 use pm_random::Random;
 use std::f32::consts::PI;
@@ -36,18 +37,6 @@ pub(super) struct Reflection {
 
 /// Directions along the surface must not divide by zero.
 const LEAST_COSINE: f32 = 1e-4;
-
-/// Shares of light that a material spreads: diffuse, and in a lobe.
-pub(super) fn spread_shares(material: &Material) -> (Vec3, Vec3) {
-    let glossy = material.kind == MaterialKind::Glossy;
-    (Vec3::from(material.diffuse), if glossy { Vec3::from(material.specular) } else { Vec3::ZERO })
-}
-
-/// Does a material spread any light, so that photons are stored on it and can be asked for?
-pub(super) fn spreads(material: &Material) -> bool {
-    let (diffuse, specular) = spread_shares(material);
-    diffuse.max(specular).max_element() > 0.0
-}
 
 impl Reflection {
     /// At a surface with this normal, on the side of `known`: a unit vector away from the surface.
@@ -131,65 +120,4 @@ impl Reflection {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn glossy(exponent: f32) -> Material {
-        let paint = Material::lambert("m", [0.3, 0.2, 0.0]);
-        Material { kind: MaterialKind::Glossy, specular: [0.1, 0.5, 0.9], exponent, ..paint }
-    }
-
-    /// Directional albedo by a midpoint sum over the hemisphere.
-    fn albedo(reflection: &Reflection) -> Vec3 {
-        let n = 800u16;
-        let mut sum = glam::DVec3::ZERO;
-        for i in 0..n {
-            for j in 0..n {
-                // Evenly in squared sine and azimuth: the cosine is in the measure, pi / n^2 each.
-                let (u, v) = ((f32::from(i) + 0.5) / f32::from(n), (f32::from(j) + 0.5) / f32::from(n));
-                let direction = cosine_direction(reflection.normal, u, v);
-                sum += reflection.brdf(direction).as_dvec3() * std::f64::consts::PI / f64::from(n).powi(2);
-            }
-        }
-        sum.as_vec3()
-    }
-
-    #[test]
-    fn samples_carry_what_the_integral_of_the_brdf_says() {
-        let normal = Vec3::new(0.6, 0.0, -0.8);
-        for (exponent, tilt) in [(1.0, 0.0), (20.0, 0.0), (20.0, 2.0), (200.0, 0.7)] {
-            let known = (normal + Vec3::Y * tilt).normalize();
-            let reflection = Reflection::new(&glossy(exponent), normal, known);
-            let expected = albedo(&reflection);
-            assert!(expected.cmple(Vec3::new(0.4, 0.7, 0.9) + 2e-3).all(), "{exponent} {tilt}: {expected}");
-            if tilt == 0.0 {
-                // Along the normal: diffuse + specular, by the closed form of the integral.
-                assert!(expected.distance(Vec3::new(0.4, 0.7, 0.9)) < 2e-3, "{expected}");
-            }
-            for spread in [Spread::Cosine, Spread::Uniform] {
-                let (n, mut random) = (200_000, Random::new(&[4]));
-                let (mut both, mut lobe) = (Vec3::ZERO, Vec3::ZERO);
-                for _ in 0..n {
-                    let (u, v) = (random.unit(), random.unit());
-                    both +=
-                        reflection.sample(spread, None, u, v, &mut random).map_or(Vec3::ZERO, |(_, w)| w) / n as f32;
-                    lobe += reflection.sample_lobe(u, v).map_or(Vec3::ZERO, |(_, w)| w) / n as f32;
-                }
-                assert!(both.distance(expected) < 0.01, "{exponent} {tilt} {spread:?}: {both} for {expected}");
-                let lobe = lobe + reflection.diffuse;
-                assert!(lobe.distance(expected) < 0.01, "{exponent} {tilt}: {lobe} for {expected}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_brdf_is_reciprocal() {
-        let mut random = Random::new(&[6]);
-        for _ in 0..100 {
-            let [a, b] = [(); 2].map(|()| uniform_direction(Vec3::Y, random.unit(), random.unit()));
-            let forth = Reflection::new(&glossy(9.0), Vec3::Y, a).brdf(b);
-            let back = Reflection::new(&glossy(9.0), Vec3::Y, b).brdf(a);
-            assert!(forth.distance(back) < 1e-4, "{forth} {back}");
-        }
-    }
-}
+mod tests;

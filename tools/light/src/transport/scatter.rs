@@ -1,8 +1,21 @@
-//! What a surface does to light: absorb it, scatter it, or pass it on along one specular direction.
+//! What a surface does to light: absorb it, spread it, or pass it on along one specular direction.
 
 use super::surface::SurfacePoint;
 use crate::scene::{Material, MaterialKind};
 use glam::Vec3;
+use pm_random::Random;
+
+/// Shares of light that a material spreads: diffuse, and in a lobe.
+pub(super) fn spread_shares(material: &Material) -> (Vec3, Vec3) {
+    let glossy = material.kind == MaterialKind::Glossy;
+    (Vec3::from(material.diffuse), if glossy { Vec3::from(material.specular) } else { Vec3::ZERO })
+}
+
+/// Does a material spread any light, so that photons are stored on it and can be asked for?
+pub(super) fn spreads(material: &Material) -> bool {
+    let (diffuse, specular) = spread_shares(material);
+    diffuse.max(specular).max_element() > 0.0
+}
 
 /// A specular continuation: a direction, and what share of the light it carries, per channel.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +47,21 @@ pub(super) fn specular(material: &Material, point: &SurfacePoint, direction: Vec
             // Without a refracted ray (total reflection) reflectance is 1.
             [Some(reflected), refracted]
         }
+    }
+}
+
+/// Chooses one of the specular ways in proportion to its largest share; the weight makes up for the choice.
+pub(super) fn choose(ways: [Option<Specular>; 2], random: &mut Random) -> Option<(Specular, f32)> {
+    match ways {
+        [Some(first), Some(second)] => {
+            let (a, b) = (first.share.max_element(), second.share.max_element());
+            let total = a + b;
+            if total <= 0.0 {
+                return None;
+            }
+            Some(if random.unit() * total < a { (first, total / a) } else { (second, total / b) })
+        }
+        [way, other] => way.or(other).map(|way| (way, 1.0)),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::scene::{Material, Scene};
 use glam::Vec3;
 
 /// A scene made ready for rays.
-pub struct Stage<'a> {
+pub struct Surfaces<'a> {
     /// What is lit.
     pub scene: &'a Scene,
     bvh: Bvh,
@@ -33,7 +33,7 @@ pub struct SurfacePoint {
 /// steps, in whatever unit the scene is.
 const MARGIN: f32 = 1.0 / (1 << 20) as f32;
 
-impl<'a> Stage<'a> {
+impl<'a> Surfaces<'a> {
     /// Builds what rays need.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {

@@ -1,119 +1,12 @@
-//! Are guided directions distributed as they claim, is the mean kept, and does the noise fall?
+//! Is the mean kept, and does the noise fall?
 
-use super::super::reflection::{Reflection, Spread};
-use super::super::sampling::uniform_direction;
-use super::super::tests::{OPTIONS, cuboid, shipped, written};
-use super::super::{GatherRays, Method, PhotonPaths, RayCounts};
+use super::super::tests::pictures::OPTIONS;
+use super::super::tests::scenes::{cuboid, shipped, written};
+use super::super::{GatherOptions, GatherRays, Method, PhotonPaths, PixelCaster, RayCounts};
 use super::*;
-use crate::scene::{Camera, CameraOverrides, Material, Scene};
-use pm_orders::Leaves;
-use pm_random::Random;
+use crate::scene::{Camera, CameraOverrides, Scene};
+use pm_orders::VisiblePoints;
 use std::path::PathBuf;
-
-/// Distributions of light from many directions, from one, from grazing ones, about several normals.
-fn distributions() -> Vec<Directions> {
-    let mut random = Random::new(&[21]);
-    let mut made = vec![];
-    for normal in [Vec3::Y, Vec3::NEG_Z, Vec3::new(1.0, -2.0, 0.5).normalize(), Vec3::new(-0.3, 0.2, 0.9).normalize()] {
-        let (x, _) = frame(normal);
-        let few: Vec<_> = (0..7).map(|i| uniform_direction(normal, random.unit(), i as f32 / 7.0)).collect();
-        let many: Vec<_> = (0..3000).map(|_| uniform_direction(normal, random.unit(), random.unit())).collect();
-        let grazing = vec![(x + normal * 0.01).normalize()];
-        for directions in [vec![normal], few, many, grazing] {
-            let light = directions.into_iter().map(|direction| (direction, random.unit() + 0.1)).collect::<Vec<_>>();
-            // Light from below is no light.
-            made.push(Directions::new(normal, light.into_iter().chain([(-normal, 1e6)])).unwrap());
-        }
-    }
-    made
-}
-
-/// Chance of each of `8 x 16` cells of equal solid angle, by midpoint sums of the density over the hemisphere.
-fn chances(directions: &Directions) -> Vec<f64> {
-    // Rows of the grid end between these elevations, columns at these azimuths.
-    let fine = [800, 4];
-    let mut sums = vec![0.0; 128];
-    let n = [8 * fine[0], 16 * fine[1]];
-    for i in 0..n[0] {
-        for j in 0..n[1] {
-            let u = (i as f32 + 0.5) / n[0] as f32;
-            let direction = uniform_direction(directions.normal, u, (j as f32 + 0.5) / n[1] as f32);
-            // Uniform over the hemisphere: 2 pi / (number of points) steradians each.
-            let density = f64::from(directions.density(direction) * direction.dot(directions.normal)) * 2.0;
-            sums[(i / fine[0]) * 16 + j / fine[1]] += density / (n[0] * n[1]) as f64;
-        }
-    }
-    sums
-}
-
-#[test]
-fn densities_integrate_to_one_over_the_hemisphere() {
-    let mut random = Random::new(&[3]);
-    for directions in distributions() {
-        let total: f64 = chances(&directions).iter().sum();
-        assert!((total - 1.0).abs() < 2e-3, "{total}");
-        for _ in 0..1000 {
-            let density = directions.density(uniform_direction(directions.normal, random.unit(), random.unit()));
-            // Every direction can be met, and none weighs more than twice what it would by the cosine.
-            assert!(density >= COSINE_SHARE * 0.999, "{density}");
-        }
-    }
-}
-
-#[test]
-fn samples_are_distributed_as_the_density_says() {
-    let mut random = Random::new(&[4]);
-    for directions in distributions() {
-        let n = 100_000;
-        let mut counts = vec![0.0; 128];
-        let mut differing = 0;
-        for _ in 0..n {
-            let (direction, density) = directions.sample(random.unit(), random.unit());
-            differing += u32::from((density / directions.density(direction) - 1.0).abs() > 1e-3);
-            let cosine = direction.dot(directions.normal);
-            let (_, v) = unit_square(directions.normal, direction);
-            counts[((1.0 - cosine) * 8.0).min(7.0) as usize * 16 + ((v * 16.0) as usize).min(15)] += 1.0;
-        }
-        // Rounding may put a sample across the border of a cell.
-        assert!(differing < n / 1000, "{differing}");
-        let expected = chances(&directions);
-        let square: f64 =
-            counts.iter().zip(&expected).map(|(o, e)| (o - e * f64::from(n)).powi(2) / (e * f64::from(n))).sum();
-        // Chi-square of 127 degrees of freedom: mean 127, deviation 16; the midpoint sums add a little.
-        assert!(square < 127.0 + 6.0 * 16.0, "{square}");
-    }
-}
-
-#[test]
-fn strata_stay_strata() {
-    for directions in distributions() {
-        let mut before = 0.0;
-        for i in 0..=1000u16 {
-            let (_, u, density) = stretched(&directions.rows, f32::from(i) / 1001.0);
-            assert!(u >= before && u <= 1.0 && density >= COSINE_SHARE * 0.999);
-            before = u;
-        }
-    }
-}
-
-#[test]
-fn a_guided_glossy_surface_reflects_what_the_integral_of_its_brdf_says() {
-    let paint = Material::lambert("m", [0.3, 0.2, 0.0]);
-    let paint = Material { kind: MaterialKind::Glossy, specular: [0.1, 0.5, 0.9], exponent: 20.0, ..paint };
-    let mut random = Random::new(&[5]);
-    for guide in distributions() {
-        let reflection = Reflection::new(&paint, guide.normal, guide.normal);
-        let n = 60_000;
-        let mut mean = glam::DVec3::ZERO;
-        for _ in 0..n {
-            let (u, v) = (random.unit(), random.unit());
-            let sample = reflection.sample(Spread::Cosine, Some(&guide), u, v, &mut random);
-            mean += sample.map_or(Vec3::ZERO, |(_, weight)| weight).as_dvec3() / f64::from(n);
-        }
-        // Along the normal: diffuse + specular.
-        assert!((mean - glam::DVec3::new(0.4, 0.7, 0.9)).abs().max_element() < 0.012, "{mean}");
-    }
-}
 
 /// Photons of the first paths through a scene, and how many of them had been reflected before.
 fn photons(scene: &Scene, paths: u64) -> (Vec<Photon>, usize) {
@@ -135,7 +28,7 @@ fn photons_straight_from_a_lamp_do_not_guide() {
     // Of diffuse surfaces only: all photons of a path but its first have been reflected.
     let (scene, _) = shipped("cornell-diffuse.obj");
     let (photons, indirect) = photons(&scene, 20_000);
-    let guide = Guide::new(&Stage::new(&scene), &photons);
+    let guide = Guide::new(&Surfaces::new(&scene), &photons);
     let kept = guide.len() as f64 / indirect as f64;
     // A few come from beside the lamp, which a packed direction cannot tell from it.
     assert!((0.97..1.005).contains(&kept), "{kept}");
@@ -169,7 +62,7 @@ fn of_the_patch(rays: &GatherRays<'_>, counts: &mut RayCounts) -> Vec<f64> {
                     pixels[query.pixel as usize] += f64::from(query.weight[0]);
                 }
             };
-            rays.visits().pixel([x, y], Leaves::All, None, query, |_| {}, counts);
+            PixelCaster::new(rays, None).pixel([x, y], VisiblePoints::All, query, |_| {}, counts);
         }
     }
     pixels
@@ -185,7 +78,7 @@ fn light_from_few_directions_comes_with_less_noise_and_no_other_mean() {
         let mut counts = RayCounts::default();
         let pictures: Vec<Vec<f64>> = (0..SEEDS)
             .map(|seed| {
-                let options = super::super::GatherOptions { gathers, seed, direct: false, ..OPTIONS };
+                let options = GatherOptions { gathers, seed, direct: false, ..OPTIONS };
                 let rays = GatherRays::new(&scene, camera, options);
                 let rays = if guided { rays.guided_by(&photons) } else { rays };
                 of_the_patch(&rays, &mut counts)
@@ -216,12 +109,18 @@ fn without_photons_nothing_changes() {
     let (scene, path) = shipped("cornell-diffuse.obj");
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
     let camera = Camera::find(&[path], &scene.bounds, &overrides).unwrap().camera;
-    let options = super::super::GatherOptions { gathers: 4, method: Method::FinalGather, ..OPTIONS };
+    let options = GatherOptions { gathers: 4, method: Method::FinalGather, ..OPTIONS };
     let queries = |guide: Option<&[Photon]>| {
         let rays = GatherRays::new(&scene, camera, options);
         let rays = guide.into_iter().fold(rays, GatherRays::guided_by);
         let mut queries = vec![];
-        rays.visits().pixel([12, 7], Leaves::All, None, |query| queries.push(query), |_| {}, &mut RayCounts::default());
+        PixelCaster::new(&rays, None).pixel(
+            [12, 7],
+            VisiblePoints::All,
+            |query| queries.push(query),
+            |_| {},
+            &mut RayCounts::default(),
+        );
         queries
     };
     assert_eq!(queries(None), queries(Some(&[])));

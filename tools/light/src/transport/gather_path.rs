@@ -1,0 +1,119 @@
+//! The path of one gather ray: through mirrors and glass to a surface that spreads light, and a bounce further where it
+//! is too short.
+
+use super::gather_options::GatherOptions;
+use super::lights::Lights;
+use super::ray_counts::RayCounts;
+use super::reflection::{Reflection, Spread};
+use super::roulette::patience;
+use super::scatter::{choose, specular, spread_shares};
+use super::surface::{SurfacePoint, Surfaces};
+use crate::scene::Scene;
+use glam::Vec3;
+use pm_random::Random;
+
+/// Paths of gather rays through a scene.
+pub(super) struct GatherPaths<'a> {
+    pub(super) surfaces: Surfaces<'a>,
+    pub(super) lights: Lights,
+    options: GatherOptions,
+}
+
+/// Where a gather ray ends.
+pub(super) struct End {
+    pub(super) point: SurfacePoint,
+    /// Unit vector back along the ray.
+    pub(super) view: Vec3,
+    /// What is left of the ray's weight.
+    pub(super) weight: Vec3,
+    /// Length of the ray, its reflections and refractions included.
+    length: f32,
+}
+
+/// The random numbers of one gather ray: light at a short end has its own, so that asking for it changes no query.
+pub(super) struct PathRandom {
+    pub(super) path: Random,
+    pub(super) light_at_short_end: Random,
+}
+
+impl<'a> GatherPaths<'a> {
+    pub(super) fn new(scene: &'a Scene, options: GatherOptions) -> Self {
+        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), options }
+    }
+
+    /// Casts one gather ray of this weight from a point, and one bounce further if it is too short.
+    pub(super) fn cast(
+        &self,
+        from: &SurfacePoint,
+        direction: Vec3,
+        weight: Vec3,
+        random: &mut PathRandom,
+        light: &mut impl FnMut(Vec3),
+        counts: &mut RayCounts,
+    ) -> Option<End> {
+        let end = self.follow(from, direction, weight, self.options.caustics, light, &mut random.path)?;
+        if end.length >= self.options.min_gather_dist {
+            return Some(end);
+        }
+        counts.gather_continued += 1;
+        self.continued(&end, light, random)
+    }
+
+    /// One bounce further: direct light at the end of a ray that was too short goes to `light`, and what comes there
+    /// from elsewhere is asked for where one ray from there ends.
+    ///
+    /// Near a corner a ray may end within the photons' disc of where it began, and then what it finds is blotched like
+    /// the map itself: Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 8.5 (who traces on there).
+    fn continued(&self, end: &End, light: &mut impl FnMut(Vec3), random: &mut PathRandom) -> Option<End> {
+        let PathRandom { path: random, light_at_short_end } = random;
+        let reflection = Reflection::new(self.surfaces.material(&end.point), end.point.facing, end.view);
+        if self.options.direct {
+            let brdf = |towards: Vec3| reflection.brdf(towards);
+            light(end.weight * self.lights.reflected(&self.surfaces, &end.point, 1, light_at_short_end, brdf));
+        }
+        let (u, v) = (random.unit(), random.unit());
+        let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
+        self.follow(&end.point, direction, end.weight * weight, true, light, random)
+    }
+
+    /// Follows a gather ray through mirrors and glass to the surface where it ends, one that spreads light.
+    /// Lamps met on the way count if `lamps` is true.
+    fn follow(
+        &self,
+        start: &SurfacePoint,
+        mut direction: Vec3,
+        mut weight: Vec3,
+        lamps: bool,
+        light: &mut impl FnMut(Vec3),
+        random: &mut Random,
+    ) -> Option<End> {
+        let (mut from, mut length) = (*start, 0.0);
+        for hits in 0.. {
+            let point = self.surfaces.hit(from.start(direction), direction)?;
+            length += point.position.distance(from.position);
+            let material = self.surfaces.material(&point);
+            // A light met directly is counted by the shadow rays; met in a mirror or through glass, only here.
+            if hits > 0 && lamps && self.options.direct && material.emits() && point.facing == point.front {
+                light(weight * Vec3::from(material.emission));
+            }
+            let (diffuse, lobe) = spread_shares(material);
+            let spread = diffuse.max_element() + lobe.max_element();
+            let ways = specular(material, &point, direction);
+            let specular_share: f32 = ways.iter().flatten().map(|way| way.share.max_element()).sum();
+            // A surface that is both is one or the other for this ray.
+            let total = spread + specular_share;
+            if total <= 0.0 {
+                return None;
+            }
+            if random.unit() * total < spread {
+                return Some(End { point, view: -direction, weight: weight * (total / spread), length });
+            }
+            let (way, chosen) = choose(ways, random)?;
+            let patient = patience(hits, random)?;
+            weight *= way.share * (chosen * patient * (total / specular_share));
+            from = point;
+            direction = way.direction;
+        }
+        None
+    }
+}
