@@ -5,6 +5,7 @@
 mod accuracy;
 mod approximate;
 mod charts;
+mod circles;
 mod cli;
 mod curves;
 mod damage;

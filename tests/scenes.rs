@@ -1,12 +1,12 @@
 //! Do scenes that strangers bring, and those that `pm-scene` makes, mean what they should?
 
 use crate::support::{Folder, same_bytes};
-use pm_light::scene::{LoadOptions, Material, MaterialKind, Scene};
+use pm_light::scene::{FileSystem, LoadOptions, Material, MaterialKind, Scene};
 use pm_light::transport::PhotonPaths;
 use std::path::{Path, PathBuf};
 
 fn load(path: &Path) -> Scene {
-    Scene::load(&[path.to_owned()], &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
+    Scene::load(&[path.to_owned()], &LoadOptions::default(), &FileSystem).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A file as an exporter writes it, from the folder `scenes` beside this one.

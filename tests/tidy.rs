@@ -46,7 +46,7 @@ fn root() -> PathBuf {
 }
 
 /// The Rust files under a folder of the repository: path from the root, and text.
-fn sources(folder: &str) -> Vec<(String, String)> {
+pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
     fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
             let path = entry.expect("an entry").path();
@@ -70,7 +70,7 @@ fn all_sources() -> Vec<(String, String)> {
 }
 
 /// A file's code without comments (of whole lines, as rustfmt leaves them, and at ends of lines) and what strings hold.
-fn code(text: &str) -> String {
+pub(crate) fn code(text: &str) -> String {
     let mut code = String::new();
     for line in text.lines() {
         let (mut quoted, mut escaped, mut before) = (false, false, ' ');

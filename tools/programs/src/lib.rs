@@ -4,7 +4,10 @@
 
 pub mod cli;
 pub mod map_args;
+pub mod photons;
+pub mod queries;
 pub mod reorder;
+pub mod scene;
 pub mod setting;
 pub mod sweep;
 pub mod view;

@@ -2,7 +2,7 @@
 
 use crate::cli::{Common, usage};
 use pm_formats::{Bounds, Header, Material};
-use pm_light::scene::{Camera, CameraOverrides, LoadOptions, QuadLight, Scene};
+use pm_light::scene::{Camera, CameraOverrides, FileSystem, LoadOptions, QuadLight, Scene};
 use std::path::PathBuf;
 
 /// Which scene.
@@ -74,7 +74,7 @@ impl SceneArgs {
         } else {
             let allow_dark = !self.quad_light.is_empty();
             let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark };
-            Scene::load(&self.scene, &options)?
+            Scene::load(&self.scene, &options, &FileSystem)?
         };
         for light in &self.quad_light {
             scene.add_quad_light("--quad-light", light)?;
@@ -96,7 +96,7 @@ impl SceneArgs {
         let choice = if self.scene.is_empty() {
             Camera::embedded(&overrides)?
         } else {
-            Camera::find(&self.scene, &scene.bounds, &overrides)?
+            Camera::find(&self.scene, &scene.bounds, &overrides, &FileSystem)?
         };
         choice.warnings.iter().for_each(|warning| common.remark(warning));
         if choice.camera.sees_only_backs(scene) {

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 /// A line of a text file, shown as `file:line`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct FileLine {
     /// The file as the user or an `mtllib` statement named it.
     pub file: PathBuf,
     /// The line, counted from 1.
     pub line: u32,
 }
 
-impl Place {
+impl FileLine {
     pub(crate) fn new(file: &Path, line: u32) -> Self {
         Self { file: file.to_path_buf(), line }
     }
@@ -23,7 +23,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FileLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.file.display(), self.line)
     }
@@ -48,7 +48,7 @@ pub enum SceneError {
     )]
     MissingMtl {
         /// The `mtllib` statement.
-        place: Place,
+        place: FileLine,
         /// The name it gives.
         name: String,
         /// What the system said.
@@ -58,7 +58,7 @@ pub enum SceneError {
     #[error("{place}: {what}")]
     Statement {
         /// The statement.
-        place: Place,
+        place: FileLine,
         /// What is wrong with it, and what would be right.
         what: String,
     },
@@ -135,8 +135,11 @@ mod tests {
         let gone = || io::Error::from(io::ErrorKind::NotFound);
         let read = SceneError::Read { path: "a.obj".into(), source: gone() }.to_string();
         assert_eq!(read, "a.obj: no such file; check the name, or give the path of an OBJ file");
-        let mtl =
-            SceneError::MissingMtl { place: Place::new(Path::new("a.obj"), 2), name: "m.mtl".into(), source: gone() };
+        let mtl = SceneError::MissingMtl {
+            place: FileLine::new(Path::new("a.obj"), 2),
+            name: "m.mtl".into(),
+            source: gone(),
+        };
         assert_eq!(
             mtl.to_string(),
             "a.obj:2: material library \"m.mtl\": no such file; put it beside the OBJ or correct the mtllib line"

@@ -1,6 +1,6 @@
 //! The lights of a scene: its emissive triangles, with what they give off.
 
-use super::Scene;
+use super::triangles::Scene;
 
 /// A triangle that emits the same radiance from every point of its front side in every direction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::Path;
 
-use super::error::{Place, SceneError};
+use super::error::{FileLine, SceneError};
 use super::statements::{Statement, number, statements};
 use super::warnings::Warnings;
 
@@ -14,7 +14,7 @@ pub(crate) struct CleanMtl {
     /// The text to parse.
     pub(crate) text: String,
     /// Where each material is defined.
-    pub(crate) places: HashMap<String, Place>,
+    pub(crate) places: HashMap<String, FileLine>,
 }
 
 /// Rewrites a material library so that tobj can read it.
@@ -25,7 +25,7 @@ pub(crate) struct CleanMtl {
 pub(crate) fn clean(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<CleanMtl, SceneError> {
     let mut out = CleanMtl { text: String::new(), places: HashMap::new() };
     for statement in &statements(file, bytes)? {
-        let place = Place::new(file, statement.line);
+        let place = FileLine::new(file, statement.line);
         let keyword = statement.keyword();
         if keyword == "newmtl" {
             let name = statement.rest();
@@ -81,7 +81,7 @@ impl CleanMtl {
 
 /// Three channels; one number stands for all three and a missing third is the first, as the MTL text has it.
 /// `None` for a spectrum or CIE XYZ, which are not read.
-fn colour(s: &Statement<'_>, place: &Place, warnings: &mut Warnings) -> Result<Option<[f32; 3]>, SceneError> {
+fn colour(s: &Statement<'_>, place: &FileLine, warnings: &mut Warnings) -> Result<Option<[f32; 3]>, SceneError> {
     let keyword = s.keyword();
     if let Some(form @ ("spectral" | "xyz")) = s.words().next() {
         warnings.once(&format!("mtl {form}"), || {
@@ -102,7 +102,7 @@ fn colour(s: &Statement<'_>, place: &Place, warnings: &mut Warnings) -> Result<O
     Ok(Some(rgb))
 }
 
-fn scalar(s: &Statement<'_>, place: &Place, warnings: &mut Warnings) -> Result<f32, SceneError> {
+fn scalar(s: &Statement<'_>, place: &FileLine, warnings: &mut Warnings) -> Result<f32, SceneError> {
     let keyword = s.keyword();
     let mut words = s.words().peekable();
     if words.next_if_eq(&"-halo").is_some() {

@@ -2,16 +2,13 @@
 
 use std::collections::HashMap;
 use std::fmt::Write;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use super::error::{Place, SceneError};
+use super::error::{FileLine, SceneError};
+use super::files::Files;
 use super::mtl::{self, CleanMtl};
 use super::statements::{Statement, number, statements};
 use super::warnings::Warnings;
-
-/// How files are read: from disk, or from what is built into the program.
-pub(crate) type ReadFile<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
 
 /// Squares of larger coordinates, and so distances, overflow single precision.
 const FARTHEST: f32 = 1e18;
@@ -26,7 +23,7 @@ pub(crate) struct ParsedObj {
     /// Every material of every library.
     pub(crate) materials: Vec<tobj::Material>,
     /// Where each material is defined.
-    pub(crate) places: HashMap<String, Place>,
+    pub(crate) places: HashMap<String, FileLine>,
 }
 
 /// Reads one OBJ file and the material libraries it names.
@@ -34,12 +31,12 @@ pub(crate) struct ParsedObj {
 /// # Errors
 ///
 /// Whatever [`SceneError`] says of reading and of statements.
-pub(crate) fn parse(file: &Path, read: ReadFile<'_>, warnings: &mut Warnings) -> Result<ParsedObj, SceneError> {
-    let bytes = read(file).map_err(|source| SceneError::Read { path: file.to_path_buf(), source })?;
+pub(crate) fn parse(file: &Path, files: &dyn Files, warnings: &mut Warnings) -> Result<ParsedObj, SceneError> {
+    let bytes = files.read(file).map_err(|source| SceneError::Read { path: file.to_path_buf(), source })?;
     let statements = statements(file, &bytes)?;
     let mut cleaner =
         Cleaner { file, warnings, text: String::new(), positions: 0, normals: Vec::new(), face_lines: vec![] };
-    let libraries = cleaner.libraries(&statements, read)?;
+    let libraries = cleaner.libraries(&statements, files)?;
     let places: HashMap<_, _> = libraries.iter().flat_map(|library| library.places.clone()).collect();
     let mut smooth = false;
     for statement in &statements {
@@ -54,7 +51,7 @@ pub(crate) fn parse(file: &Path, read: ReadFile<'_>, warnings: &mut Warnings) ->
         tobj::load_mtl_buf(&mut clean.text.as_bytes())
     };
     // The pass above leaves tobj nothing to complain of; if it does all the same, say so without a line.
-    let refused = |error: tobj::LoadError| Place::new(file, 1).error(format!("somewhere in this file: {error}"));
+    let refused = |error: tobj::LoadError| FileLine::new(file, 1).error(format!("somewhere in this file: {error}"));
     let (models, materials) = tobj::load_obj_buf(&mut text.as_bytes(), &options, library).map_err(refused)?;
     Ok(ParsedObj { models, face_lines, materials: materials.map_err(refused)?, places })
 }
@@ -72,12 +69,12 @@ struct Cleaner<'a> {
 impl Cleaner<'_> {
     /// Reads the libraries of all `mtllib` statements, each once, and names them to tobj by their number.
     /// They go first, so that a `usemtl` above its `mtllib` works.
-    fn libraries(&mut self, statements: &[Statement<'_>], read: ReadFile<'_>) -> Result<Vec<CleanMtl>, SceneError> {
+    fn libraries(&mut self, statements: &[Statement<'_>], files: &dyn Files) -> Result<Vec<CleanMtl>, SceneError> {
         let mut seen: Vec<PathBuf> = Vec::new();
         let mut out = Vec::new();
         for statement in statements.iter().filter(|s| s.keyword() == "mtllib") {
-            let place = Place::new(self.file, statement.line);
-            for (path, bytes) in self.library_files(statement, &place, read)? {
+            let place = FileLine::new(self.file, statement.line);
+            for (path, bytes) in self.library_files(statement, &place, files)? {
                 if seen.contains(&path) {
                     continue;
                 }
@@ -93,14 +90,14 @@ impl Cleaner<'_> {
     fn library_files(
         &self,
         statement: &Statement<'_>,
-        place: &Place,
-        read: ReadFile<'_>,
+        place: &FileLine,
+        files: &dyn Files,
     ) -> Result<Vec<(PathBuf, Vec<u8>)>, SceneError> {
         let beside = |name: &str| self.file.with_file_name("").join(name.replace('\\', "/"));
         let open = |name: &str| {
             let path = beside(name);
             let missing = |source| SceneError::MissingMtl { place: place.clone(), name: name.to_owned(), source };
-            read(&path).map(|bytes| (path, bytes)).map_err(missing)
+            files.read(&path).map(|bytes| (path, bytes)).map_err(missing)
         };
         let rest = statement.rest();
         if rest.is_empty() {
@@ -116,10 +113,10 @@ impl Cleaner<'_> {
     fn statement(
         &mut self,
         statement: &Statement<'_>,
-        materials: &HashMap<String, Place>,
+        materials: &HashMap<String, FileLine>,
         smooth: &mut bool,
     ) -> Result<(), SceneError> {
-        let place = Place::new(self.file, statement.line);
+        let place = FileLine::new(self.file, statement.line);
         let keyword = statement.keyword();
         match keyword {
             "v" => self.position(statement, &place)?,
@@ -146,7 +143,7 @@ impl Cleaner<'_> {
         Ok(())
     }
 
-    fn position(&mut self, statement: &Statement<'_>, place: &Place) -> Result<(), SceneError> {
+    fn position(&mut self, statement: &Statement<'_>, place: &FileLine) -> Result<(), SceneError> {
         let numbers = statement.numbers().map_err(|what| place.error(format!("v: {what}")))?;
         let (xyz, w) = match numbers[..] {
             [x, y, z] => ([x, y, z], 1.0),
@@ -167,7 +164,7 @@ impl Cleaner<'_> {
     }
 
     /// A normal without a direction is kept in its place, so that the numbers of the others hold, but not used.
-    fn normal(&mut self, statement: &Statement<'_>, place: &Place) -> Result<(), SceneError> {
+    fn normal(&mut self, statement: &Statement<'_>, place: &FileLine) -> Result<(), SceneError> {
         let words: Vec<&str> = statement.words().collect();
         if words.len() < 3 {
             return Err(place.error(format!("vn with {} numbers; it takes x y z", words.len())));
@@ -187,7 +184,7 @@ impl Cleaner<'_> {
         Ok(())
     }
 
-    fn face(&mut self, statement: &Statement<'_>, place: &Place, smooth: &mut bool) -> Result<(), SceneError> {
+    fn face(&mut self, statement: &Statement<'_>, place: &FileLine, smooth: &mut bool) -> Result<(), SceneError> {
         let words = statement.words();
         let corners: Vec<Corner> = words.map(|word| self.corner(word, place)).collect::<Result<_, _>>()?;
         if corners.len() < 3 {
@@ -216,7 +213,7 @@ impl Cleaner<'_> {
     }
 
     /// One corner, `v`, `v/vt`, `v//vn` or `v/vt/vn`, with relative numbers made absolute.
-    fn corner(&self, word: &str, place: &Place) -> Result<Corner, SceneError> {
+    fn corner(&self, word: &str, place: &FileLine) -> Result<Corner, SceneError> {
         let mut parts = word.split('/');
         let position = parts.next().unwrap_or("");
         parts.next(); // texture coordinates: no textures here
@@ -241,7 +238,7 @@ struct Corner {
 }
 
 /// An index counted from 1 of `count` things so far; negative ones count back from the last.
-fn absolute(word: &str, count: usize, what: &str, place: &Place) -> Result<usize, SceneError> {
+fn absolute(word: &str, count: usize, what: &str, place: &FileLine) -> Result<usize, SceneError> {
     let index: i64 = match word.parse() {
         Ok(index) => index,
         Err(_) if number(word).is_ok() => return Err(place.error(format!("f: index {word:?} is not a whole number"))),

@@ -1,6 +1,9 @@
 //! Lights that are in no OBJ file: parallelograms of even radiance.
 
-use super::{Material, Scene, SceneError};
+use super::error::SceneError;
+use super::material::Material;
+use super::mesh::{Shape, shape};
+use super::triangles::Scene;
 use glam::DVec3;
 use std::str::FromStr;
 
@@ -71,8 +74,7 @@ impl Scene {
         self.normals.resize(self.positions.len(), glam::Vec3::ZERO);
         for triangle in [[0, 1, 2], [0, 2, 3]] {
             let triangle = triangle.map(|i| first + i);
-            let sound = super::mesh::shape(triangle.map(|i| self.positions[i as usize])) == super::mesh::Shape::Sound;
-            if !sound {
+            if shape(triangle.map(|i| self.positions[i as usize])) != Shape::Sound {
                 return Err(fault("so small that single precision gives it no area where it is".into()));
             }
             self.indices.push(triangle);

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::error::{Place, SceneError};
+use super::error::{FileLine, SceneError};
 
 /// One statement: its keyword, the rest of its text, and the line on which it begins.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -63,7 +63,7 @@ pub(crate) fn statements<'a>(file: &Path, bytes: &'a [u8]) -> Result<Vec<Stateme
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if let Some(at) = bytes.iter().position(|&b| b == 0) {
         let line = 1 + bytes[..at].iter().filter(|&&b| b == b'\n').count() as u32;
-        return Err(Place::new(file, line).error("a zero byte: not a text file; save it as UTF-8 text"));
+        return Err(FileLine::new(file, line).error("a zero byte: not a text file; save it as UTF-8 text"));
     }
     // Files from before 2001 end their lines with a carriage return alone.
     let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };

@@ -1,6 +1,7 @@
 //! The materials of a scene as a table for people.
 
-use super::{Material, MaterialKind, Scene};
+use super::material::{Material, MaterialKind};
+use super::triangles::Scene;
 
 impl Scene {
     /// A line per material, in aligned columns: name, what it is, what share of light it reflects (diffuse + specular;

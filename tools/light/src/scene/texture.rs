@@ -1,6 +1,6 @@
 //! Textures, as far as they go here: the mean colour of an image.
 
-use super::obj::ReadFile;
+use super::files::Files;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ pub(crate) type Texture = Result<[f32; 3], String>;
 pub(crate) fn mean_colour(
     mtl: &Path,
     statement: &str,
-    read: ReadFile<'_>,
+    files: &dyn Files,
     known: &mut HashMap<PathBuf, Texture>,
 ) -> Texture {
     let name = file_name(statement).replace('\\', "/");
@@ -21,7 +21,7 @@ pub(crate) fn mean_colour(
     if let Some(texture) = places.iter().find_map(|path| known.get(path)) {
         return texture.clone();
     }
-    let found = places.iter().find_map(|path| read(path).ok().map(|bytes| (path.clone(), bytes)));
+    let found = places.iter().find_map(|path| files.read(path).ok().map(|bytes| (path.clone(), bytes)));
     let (path, texture) = match found {
         Some((path, bytes)) => (path, mean(&bytes)),
         None => (places[0].clone(), Err(format!("{bare:?} cannot be read"))),

@@ -1,82 +1,8 @@
 //! Writes scenes that are made by rule: OBJ, MTL and camera file.
 
-use anyhow::Context as _;
-use clap::Parser;
-use pm_light::make_scene::Recipe;
-use pm_programs::cli::{self, Common, Typed, create_output, usage};
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use pm_programs::{cli, scene};
 use std::process::ExitCode;
 
-/// Make a scene: NAME.obj, NAME.mtl and NAME.camera.toml, the same bytes whenever and wherever they are made.
-#[derive(Parser)]
-#[command(after_help = EXAMPLES)]
-struct Args {
-    /// Which scene
-    name: Name,
-    /// Folder for the three files, or the OBJ file, beside which the others go
-    #[arg(short, long, value_name = "FOLDER|FILE.obj")]
-    output: PathBuf,
-    /// Triangles to make at least [default: fractal 200000, columns 60000, sphere 20000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1000..=20_000_000))]
-    triangles: Option<u32>,
-    #[command(flatten)]
-    common: Common,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Name {
-    /// The Cornell box with both spheres and fractal walls
-    Fractal,
-    /// A hall with columns, arches, a vault, windows and a reflecting floor
-    Columns,
-    /// An integrating sphere: the irradiance is known
-    Sphere,
-}
-
-const EXAMPLES: &str = "\
-Examples:
-  pm-scene fractal -o scenes
-  pm-scene columns --triangles 500000 -o hall.obj";
-
 fn main() -> ExitCode {
-    cli::main("pm-scene", run)
-}
-
-fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
-    let recipe = match args.name {
-        Name::Fractal => Recipe::Fractal,
-        Name::Columns => Recipe::Columns,
-        Name::Sphere => Recipe::Sphere,
-    };
-    let obj = obj_path(&args.output, recipe.name())?;
-    let stem = obj.file_stem().and_then(|stem| stem.to_str()).context("the name of the OBJ file is not UTF-8")?;
-    let model = recipe.make(args.triangles.map_or(recipe.usual_triangles(), |triangles| triangles as usize));
-    // All are written before any appears, the OBJ last: where it is, the others are.
-    let texts = [
-        (obj.with_extension("mtl"), model.mtl(stem)),
-        (obj.with_extension("camera.toml"), model.camera(stem)),
-        (obj.clone(), model.obj(stem)),
-    ];
-    let mut files = vec![];
-    for (path, text) in &texts {
-        let mut file = create_output(path)?;
-        file.write_all(text.as_bytes())?;
-        files.push(file);
-    }
-    files.into_iter().try_for_each(cli::Output::commit)?;
-    args.common.remark(format!("{}: {} triangles", obj.display(), model.triangle_count()));
-    Ok(())
-}
-
-/// The OBJ file that `output` means: itself by its ending, else one of the scene's name in a folder, made if need be.
-fn obj_path(output: &Path, name: &str) -> anyhow::Result<PathBuf> {
-    if output == Path::new("-") {
-        return Err(usage("three files do not go to standard output; name a folder or an OBJ file"));
-    }
-    if output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
-        return Ok(output.to_owned());
-    }
-    std::fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
-    Ok(output.join(name).with_extension("obj"))
+    cli::main("pm-scene", scene::run)
 }

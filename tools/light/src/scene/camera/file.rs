@@ -2,9 +2,12 @@
 
 use serde::Deserialize;
 
-use super::{CameraChoice, CameraOverrides, SIZE, SceneError, UP, VFOV, View, choose};
+use super::choice::{CameraChoice, choose};
+use super::overrides::CameraOverrides;
+use super::pinhole::{SIZE, UP, VFOV, View};
+use crate::scene::SceneError;
 
-/// The file; what it does not say is as in [`super`].
+/// The file; what it does not say is as in [`pinhole`](super::pinhole).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CameraFile {

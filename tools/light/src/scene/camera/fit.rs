@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use super::{Bounds, CameraChoice, CameraOverrides, SIZE, SceneError, UP, VFOV, View, choose};
+use super::choice::{CameraChoice, choose};
+use super::overrides::CameraOverrides;
+use super::pinhole::{SIZE, UP, VFOV, View};
+use crate::scene::{Bounds, SceneError};
 
 /// Space left around the scene, as a share of it.
 const MARGIN: f64 = 1.05;

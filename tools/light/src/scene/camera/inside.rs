@@ -1,6 +1,6 @@
 //! A camera inside a wall: what it looks like, since nothing says so.
 
-use super::Camera;
+use super::pinhole::Camera;
 use crate::scene::{MaterialKind, Scene};
 use glam::DVec3;
 

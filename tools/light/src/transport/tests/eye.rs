@@ -3,7 +3,7 @@
 use super::super::{GatherOptions, GatherRays, Method, PixelCaster, RayCounts};
 use super::pictures::{OPTIONS, rays_with};
 use super::scenes::{camera, shipped};
-use crate::scene::{Camera, CameraOverrides};
+use crate::scene::{Camera, CameraOverrides, FileSystem};
 use glam::Vec3;
 use pm_orders::Generative;
 
@@ -43,7 +43,7 @@ fn a_pixel_that_is_remembered_is_seen_as_at_first() {
     // The box with a mirror and a glass sphere, in passes that come to each pixel again, and from the second one on.
     let (scene, path) = shipped("cornell.obj");
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
-    let camera = Camera::find(&[path], &scene.bounds, &overrides).unwrap().camera;
+    let camera = Camera::find(&[path], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
     let rays = GatherRays::new(&scene, camera, GatherOptions { gathers: 4, ..OPTIONS }).with_bins(4);
     let order = Generative::DirectionBinned { tile: 32, bins: 4 };
     for first in [0, 1] {

@@ -1,7 +1,7 @@
 //! The queries and the light of a small picture.
 
 use super::super::{GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
-use crate::scene::{Camera, CameraOverrides, Scene};
+use crate::scene::{Camera, CameraOverrides, FileSystem, Scene};
 use glam::Vec3;
 use pm_orders::VisiblePoints;
 use std::path::Path;
@@ -13,7 +13,7 @@ pub(in crate::transport) fn rays(
     strata: Strata,
 ) -> (Vec<pm_formats::Query>, Vec<Vec3>, Camera) {
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
-    let camera = Camera::find(&[path.to_owned()], &scene.bounds, &overrides).unwrap().camera;
+    let camera = Camera::find(&[path.to_owned()], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
     rays_with(scene, camera, GatherOptions { gathers, strata, ..OPTIONS })
 }
 

@@ -1,11 +1,11 @@
 //! Scenes to test with: shipped ones, and small ones written for the purpose.
 
-use crate::scene::{Camera, CameraOverrides, LoadOptions, Scene};
+use crate::scene::{Camera, CameraOverrides, FileSystem, LoadOptions, Scene};
 use std::path::{Path, PathBuf};
 
 pub(in crate::transport) fn shipped(name: &str) -> (Scene, PathBuf) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-    (Scene::load(std::slice::from_ref(&path), &LoadOptions::default()).unwrap(), path)
+    (Scene::load(std::slice::from_ref(&path), &LoadOptions::default(), &FileSystem).unwrap(), path)
 }
 
 pub(in crate::transport) fn written(obj: &str, mtl: &str) -> Scene {
@@ -13,10 +13,13 @@ pub(in crate::transport) fn written(obj: &str, mtl: &str) -> Scene {
 }
 
 pub(in crate::transport) fn written_with(obj: &str, mtl: &str, options: &LoadOptions) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("t.mtl"), mtl).unwrap();
-    std::fs::write(folder.path().join("t.obj"), format!("mtllib t.mtl\n{obj}")).unwrap();
-    Scene::load(&[folder.path().join("t.obj")], options).unwrap()
+    let obj = format!("mtllib t.mtl\n{obj}");
+    let files = |path: &Path| match path.to_str() {
+        Some("t.obj") => Ok(obj.clone().into_bytes()),
+        Some("t.mtl") => Ok(mtl.as_bytes().to_vec()),
+        _ => Err(std::io::ErrorKind::NotFound.into()),
+    };
+    Scene::load(&["t.obj".into()], options, &files).unwrap()
 }
 
 /// A box from `min` to `max` of one material, its faces turned outward or inward.
@@ -38,7 +41,7 @@ pub(in crate::transport) fn cuboid(first_vertex: usize, min: f32, max: f32, mate
 }
 
 pub(in crate::transport) fn camera(path: &Path) -> Camera {
-    let (scene, overrides) = (Scene::load(&[path.to_owned()], &LoadOptions::default()).unwrap(), [24, 20]);
+    let (scene, overrides) = (Scene::load(&[path.to_owned()], &LoadOptions::default(), &FileSystem).unwrap(), [24, 20]);
     let overrides = CameraOverrides { size: Some(overrides), ..CameraOverrides::default() };
-    Camera::find(&[path.to_owned()], &scene.bounds, &overrides).unwrap().camera
+    Camera::find(&[path.to_owned()], &scene.bounds, &overrides, &FileSystem).unwrap().camera
 }

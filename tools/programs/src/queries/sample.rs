@@ -1,16 +1,16 @@
-//! Which part of a picture's rays is cast: all, some whole batches, or windows of consecutive rays.
+//! Which of a picture's rays are cast: all, some whole batches, or windows of consecutive rays.
 
+use crate::cli::usage;
 use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, StageReport};
 use pm_light::transport::{GatherRays, Piece, RayCounts, RayPlan};
 use pm_orders::{Generative, Span};
-use pm_programs::cli::usage;
 use pm_sampling::windows::{Choice, cell_of};
 use std::ops::Range;
 
-/// The options that ask for a part.
+/// The options that ask for a sample.
 #[derive(clap::Args)]
-pub(crate) struct PartArgs {
+pub(super) struct SampleArgs {
     /// Cast the rays of N tiles (or scanlines) only, for pm-cachesim to estimate the whole from
     ///
     /// One whole batch in each of N equal parts of the picture, chosen by chance. With --window, N windows of gather rays
@@ -32,7 +32,7 @@ pub(crate) struct PartArgs {
 }
 
 /// What is cast.
-pub(crate) enum Part {
+pub(super) enum Sample {
     /// Everything.
     All,
     /// Batches with these numbers, in order.
@@ -43,33 +43,33 @@ pub(crate) enum Part {
 
 /// Rays that are cast together: those of a span of pixels, or some of them.
 #[derive(Clone)]
-pub(crate) struct Job {
-    pub(crate) meta: BlockMeta,
-    pub(crate) span: Span,
+pub(super) struct Job {
+    pub(super) meta: BlockMeta,
+    pub(super) span: Span,
     /// Which of them, counted from the first of the span; `None` is all, with the light that needs no ray.
-    pub(crate) rays: Option<Range<u64>>,
+    pub(super) rays: Option<Range<u64>>,
 }
 
-impl PartArgs {
-    /// Chooses the part. To know where windows are, the eye rays of the picture are cast, and counted in `counts`.
+impl SampleArgs {
+    /// Chooses the sample. To know where windows are, the eye rays of the picture are cast, and counted in `counts`.
     ///
     /// # Errors
     /// If more is wanted than there is.
-    pub(crate) fn choose(
+    pub(super) fn choose(
         &self,
         order: Generative,
         size: [u32; 2],
         rays: &GatherRays<'_>,
         threads: usize,
         counts: &mut RayCounts,
-    ) -> anyhow::Result<Part> {
-        let Some(n) = self.only_tiles else { return Ok(Part::All) };
+    ) -> anyhow::Result<Sample> {
+        let Some(n) = self.only_tiles else { return Ok(Sample::All) };
         let Some(length) = self.window else {
             let of = order.batches(size);
             let choice = Choice::new(of, n, self.sample_seed).ok_or_else(|| {
                 usage(format!("--only-tiles {n}: the picture has {of} batches (tiles or scanlines): give at most {of}"))
             })?;
-            return Ok(Part::Batches { chosen: choice.cells().collect(), of });
+            return Ok(Sample::Batches { chosen: choice.cells().collect(), of });
         };
         let plan = RayPlan::new(rays, order, threads, counts);
         let cells = plan.rays().div_ceil(length);
@@ -82,13 +82,13 @@ impl PartArgs {
         }
         // Where nothing is seen there are no windows, and an empty stream as without them.
         let measured = choice.into_iter().flat_map(Choice::cells).map(|cell| cell_of(cell, length, plan.rays()));
-        Ok(Part::Windows { measured: measured.collect(), plan, length, warm_up: self.warm_up })
+        Ok(Sample::Windows { measured: measured.collect(), plan, length, warm_up: self.warm_up })
     }
 }
 
-impl Part {
+impl Sample {
     /// What is cast, in order.
-    pub(crate) fn jobs(&self, order: Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + '_> {
+    pub(super) fn jobs(&self, order: Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + '_> {
         let batch = |batch, warm_up| BlockMeta { batch, warm_up, records: 0 };
         match self {
             Self::All => {
@@ -119,7 +119,7 @@ impl Part {
     }
 
     /// Number of pixels, or else of rays, that [`Job::size`] counts.
-    pub(crate) fn size(&self, order: Generative, size: [u32; 2]) -> u64 {
+    pub(super) fn size(&self, order: Generative, size: [u32; 2]) -> u64 {
         match self {
             Self::All => u64::from(size[0]) * u64::from(size[1]),
             Self::Batches { .. } => self.jobs(order, size).map(|job| job.size()).sum(),
@@ -128,17 +128,22 @@ impl Part {
     }
 
     /// What [`Self::size`] counts.
-    pub(crate) const fn unit(&self) -> &'static str {
-        if matches!(self, Self::Windows { .. }) { "rays" } else { "pixels" }
+    pub(super) const fn unit(&self) -> &'static str {
+        if self.is_of_rays() { "rays" } else { "pixels" }
+    }
+
+    /// Are single rays counted, not pixels?
+    pub(super) const fn is_of_rays(&self) -> bool {
+        matches!(self, Self::Windows { .. })
     }
 
     /// Are whole batches left out?
-    pub(crate) const fn is_of_batches(&self) -> bool {
+    pub(super) const fn is_of_batches(&self) -> bool {
         matches!(self, Self::Batches { .. })
     }
 
     /// Says in a header what of the whole its stream holds, where that is not all.
-    pub(crate) fn set_meaning(&self, header: &mut Header) {
+    pub(super) fn set_meaning(&self, header: &mut Header) {
         let (sample, of, windows, share) = match self {
             Self::All => return,
             Self::Batches { chosen, of } => {
@@ -158,7 +163,7 @@ impl Part {
     }
 
     /// Adds to the end block what the header does not say.
-    pub(crate) fn measure(&self, report: StageReport) -> StageReport {
+    pub(super) fn measure(&self, report: StageReport) -> StageReport {
         match self {
             Self::All => report,
             Self::Batches { chosen, of } => report
@@ -176,7 +181,7 @@ impl Part {
 
 impl Job {
     /// Pixels that are visited for the first time, or else the number of rays.
-    pub(crate) fn size(&self) -> u64 {
+    pub(super) fn size(&self) -> u64 {
         match &self.rays {
             Some(rays) => rays.end - rays.start,
             None if self.span.pass.is_first() => u64::from(self.span.columns.end - self.span.columns.start),

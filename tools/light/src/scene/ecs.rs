@@ -1,25 +1,30 @@
 //! Embree's scene description `NAME.ecs`: command-line options in a file, of which camera and area lights are read.
 
-use super::{CameraChoice, CameraOverrides, SIZE, SceneError, UP, VFOV, View, choose};
-use crate::scene::{Place, QuadLight};
+use super::error::{FileLine, SceneError};
+use super::quad_light::QuadLight;
 use std::path::Path;
 
 /// What an `.ecs` file says.
 #[derive(Debug, Default)]
-struct Ecs<'a> {
-    eye: Option<[f64; 3]>,
-    look_at: Option<[f64; 3]>,
-    up: Option<[f64; 3]>,
-    vfov: Option<f64>,
-    size: Option<[u32; 2]>,
+pub(super) struct Ecs<'a> {
+    pub(super) eye: Option<[f64; 3]>,
+    pub(super) look_at: Option<[f64; 3]>,
+    pub(super) up: Option<[f64; 3]>,
+    pub(super) vfov: Option<f64>,
+    pub(super) size: Option<[u32; 2]>,
     /// Area lights, and where they are described.
-    lights: Vec<(Place, QuadLight)>,
+    lights: Vec<PlacedLight>,
     /// Lights without an area, by their options.
     other_lights: Vec<&'a str>,
-    others: Vec<&'a str>,
+    /// Options that are neither camera nor light.
+    pub(super) others: Vec<&'a str>,
 }
 
-fn read<'a>(text: &'a str, whence: &str) -> Result<Ecs<'a>, SceneError> {
+/// Reads an `.ecs` file that came from `whence`.
+///
+/// # Errors
+/// [`SceneError::Camera`] for what should be a number and is none.
+pub(super) fn read<'a>(text: &'a str, whence: &str) -> Result<Ecs<'a>, SceneError> {
     let mut ecs = Ecs::default();
     for (number, line) in (1..).zip(text.lines()) {
         let mut words = line.split_whitespace().take_while(|word| !word.starts_with('#')).peekable();
@@ -40,7 +45,7 @@ fn read<'a>(text: &'a str, whence: &str) -> Result<Ecs<'a>, SceneError> {
                 Some("size") => ecs.size = Some([value()? as u32, value()? as u32]),
                 Some("quadlight") => {
                     let light = QuadLight { corner: three()?, u: three()?, v: three()?, radiance: three()? };
-                    ecs.lights.push((Place::new(Path::new(whence), number), light));
+                    ecs.lights.push((FileLine::new(Path::new(whence), number), light));
                 }
                 Some("i") => while words.next_if(|word| !is_option(word)).is_some() {}, // the OBJ we are beside
                 _ => {
@@ -55,37 +60,17 @@ fn read<'a>(text: &'a str, whence: &str) -> Result<Ecs<'a>, SceneError> {
     Ok(ecs)
 }
 
-/// Reads the camera of an `.ecs` file that came from `whence`; what is neither camera nor light is named in a warning.
-pub(super) fn parse(text: &str, whence: &str, overrides: &CameraOverrides) -> Result<CameraChoice, SceneError> {
-    let ecs = read(text, whence)?;
-    let place = |point: Option<[f64; 3]>, given: Option<[f64; 3]>, option: &str, what: &str| {
-        point.or(given).ok_or_else(|| SceneError::Camera {
-            whence: whence.to_owned(),
-            what: format!("no {option} in the file; give {what}"),
-        })
-    };
-    let view = View {
-        eye: place(ecs.eye, overrides.eye, "-vp", "the eye")?,
-        look_at: place(ecs.look_at, overrides.look_at, "-vi", "the point to look at")?,
-        up: ecs.up.unwrap_or(UP),
-        vfov: ecs.vfov.unwrap_or(VFOV),
-        size: ecs.size.unwrap_or(SIZE),
-    };
-    let mut choice = choose(view, whence, overrides)?;
-    if !ecs.others.is_empty() {
-        choice.warnings.push(format!("{whence}: {} ignored", ecs.others.join(" ")));
-    }
-    Ok(choice)
-}
+/// An area light, and where it is described.
+pub(super) type PlacedLight = (FileLine, QuadLight);
 
-/// Area lights, each with where it was read, and a warning about other lights.
-type Lights = (Vec<(Place, QuadLight)>, Option<String>);
+/// Area lights, and a warning about other lights.
+type Lights = (Vec<PlacedLight>, Option<String>);
 
 /// Reads the area lights of an `.ecs` file that came from `whence`, and a warning if it has lights of other kinds.
 ///
 /// # Errors
 /// [`SceneError::Camera`] for what should be a number and is none.
-pub(crate) fn lights(text: &str, whence: &str) -> Result<Lights, SceneError> {
+pub(super) fn lights(text: &str, whence: &str) -> Result<Lights, SceneError> {
     let ecs = read(text, whence)?;
     let warning = (!ecs.other_lights.is_empty()).then(|| {
         let names = ecs.other_lights.join(" ");
@@ -101,32 +86,16 @@ fn is_option(word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
-    /// Are Embree's camera and area lights read, and lights of other kinds named rather than lost?
+    /// Are Embree's area lights read, and lights of other kinds named rather than lost?
     #[test]
-    fn camera_and_area_lights_are_read() {
+    fn area_lights_are_read() {
         let text = "-i crown.obj  # the model\n-vp 1 2 3 -vi -4 5 6\n-vu 0 0 1 -fov 37\n-size 640 480\n\
                     -quadlight 0 9 0 1 0 0 0 0 1 5 5 5\n-pointlight 1 1 1 2 2 2 --threads 4\n";
-        let choice = parse(text, "crown.ecs", &CameraOverrides::default()).unwrap();
-        let camera = choice.camera;
-        assert_eq!((camera.eye(), camera.look_at()), (Vec3::new(1.0, 2.0, 3.0), Vec3::new(-4.0, 5.0, 6.0)));
-        assert_eq!((camera.up(), camera.vfov(), camera.size()), (Vec3::Z, 37.0, [640, 480]));
-        assert_eq!(choice.warnings, ["crown.ecs: --threads ignored"]);
         let (lights, warning) = lights(text, "crown.ecs").unwrap();
         let light = QuadLight { corner: [0., 9., 0.], u: [1., 0., 0.], v: [0., 0., 1.], radiance: [5.; 3] };
-        assert_eq!(lights, [(Place::new(Path::new("crown.ecs"), 5), light)]);
+        assert_eq!(lights, [(FileLine::new(Path::new("crown.ecs"), 5), light)]);
         assert!(warning.unwrap().starts_with("crown.ecs: -pointlight not read"));
-    }
-
-    /// Does a bad or missing number name its line and option?
-    #[test]
-    fn bad_numbers_are_named() {
-        let error = |text| parse(text, "a.ecs", &CameraOverrides::default()).unwrap_err().to_string();
-        assert_eq!(error("-vp 1 2 3\n-vi 0 x 0"), "camera (a.ecs:2): -vi wants a number, not \"x\"");
-        assert_eq!(error("-vi 0 0"), "camera (a.ecs:1): -vi wants a number, not \"nothing\"");
-        assert_eq!(error("-vi 0 0 0"), "camera (a.ecs): no -vp in the file; give the eye");
     }
 }

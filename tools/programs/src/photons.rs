@@ -1,0 +1,71 @@
+//! `pm-photons`: traces photons from the lights of a scene and writes those stored at its surfaces.
+
+mod args;
+mod collect;
+
+pub use args::Args;
+
+use crate::cli::{Progress, Typed};
+use crate::setting::header;
+use anyhow::ensure;
+use collect::{Collected, Traced};
+use pm_formats::vocabulary::{meaning, measure};
+use pm_formats::{BlockMeta, Number, RecordWriter, StageReport};
+use pm_light::transport::PhotonPaths;
+use pm_parallel::in_order;
+use std::cell::RefCell;
+
+/// Paths traced as one piece of work.
+const PATHS: u64 = 4096;
+/// Paths after which a scene that has stored nothing is given up.
+const HOPELESS: u64 = 1 << 22;
+
+/// Does what was asked.
+///
+/// # Errors
+/// If it was asked wrongly, the scene cannot be loaded or stores no photon, or the output cannot be written.
+pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    let scene = args.scene.load(&args.common)?;
+    let mut header = header(&scene);
+    header.expected_records = Some(args.number);
+    header.history.push(typed.step(Some(args.seed)));
+    if args.caustics {
+        header.set_meaning(meaning::PHOTONS, "caustics");
+    }
+    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
+
+    let paths = PhotonPaths::new(&scene, args.seed);
+    let collected = RefCell::new(Collected::new(args.number));
+    let mut first_path = 0;
+    in_order(
+        args.common.threads(),
+        || {
+            if collected.borrow().is_complete() {
+                return Ok(None);
+            }
+            first_path += PATHS;
+            Ok(Some(first_path - PATHS))
+        },
+        |first: u64| Traced::paths(&paths, first..first + PATHS, args.caustics),
+        |traced: Traced| {
+            let mut collected = collected.borrow_mut();
+            let packed = collected.add(&traced, &paths)?;
+            output.write(BlockMeta::default(), packed)?;
+            progress.add(packed.len() as u64);
+            ensure!(
+                collected.stored > 0 || collected.emitted < HOPELESS,
+                "no photon{} met a diffuse surface in {} paths: do the lights face the scene, and is anything diffuse (Kd)?",
+                if args.caustics { " of a caustic" } else { "" },
+                collected.emitted
+            );
+            Ok(())
+        },
+    )?;
+    drop(progress);
+    let Collected { stored, emitted, .. } = collected.into_inner();
+    let report = StageReport::new(typed.program())
+        .with("photons", Number::Count(stored))
+        .with(measure::EMITTED_PATHS, Number::Count(emitted));
+    output.finish(vec![report])?.commit()
+}

@@ -1,0 +1,32 @@
+//! What `pm-photons` is asked.
+
+use crate::cli::{Common, OutputArgs};
+use crate::setting::SceneArgs;
+use clap::Parser;
+
+/// Trace photons from the lights and store them at diffuse surfaces.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    pub(super) scene: SceneArgs,
+    /// Photons to store: whole paths are traced until there are at least so many
+    #[arg(short = 'n', long, value_name = "PHOTONS", default_value = "100000")]
+    pub(super) number: u64,
+    /// Store caustics only: photons that came from a light by mirrors and glass alone; goes with `pm-queries --no-caustics`
+    #[arg(long)]
+    pub(super) caustics: bool,
+    /// Seed of the random numbers
+    #[arg(long, default_value = "0")]
+    pub(super) seed: u64,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-photons -o map.pmp
+  pm-photons scenes/cornell-diffuse.obj -n 450000 -t 2 -o map.pmp
+  pm-photons | pm-view --records=10";

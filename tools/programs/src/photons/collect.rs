@@ -1,0 +1,73 @@
+//! Photons of many paths, collected until there are enough.
+
+use anyhow::bail;
+use pm_formats::{BLOCK_RECORDS, Photon};
+use pm_light::transport::{PathPhoton, PhotonPaths};
+use std::ops::Range;
+
+/// Photons of consecutive paths, and after how many photons each path ends.
+pub(super) struct Traced {
+    photons: Vec<PathPhoton>,
+    path_ends: Vec<usize>,
+}
+
+impl Traced {
+    /// Traces paths; keeps caustic photons only, if these are wanted alone.
+    pub(super) fn paths(paths: &PhotonPaths<'_>, numbers: Range<u64>, caustics: bool) -> Self {
+        let mut traced = Self { photons: vec![], path_ends: vec![] };
+        for path in numbers {
+            paths.trace(path, |photon| {
+                if photon.caustic || !caustics {
+                    traced.photons.push(photon);
+                }
+            });
+            traced.path_ends.push(traced.photons.len());
+        }
+        traced
+    }
+}
+
+/// What has been collected so far.
+pub(super) struct Collected {
+    wanted: u64,
+    /// Photons stored.
+    pub(super) stored: u64,
+    /// Paths that they are of, with those that stored none.
+    pub(super) emitted: u64,
+    packed: Vec<Photon>,
+}
+
+impl Collected {
+    /// Nothing, of at least so many photons.
+    pub(super) fn new(wanted: u64) -> Self {
+        Self { wanted, stored: 0, emitted: 0, packed: Vec::with_capacity(BLOCK_RECORDS) }
+    }
+
+    /// Are there as many as are wanted?
+    pub(super) const fn is_complete(&self) -> bool {
+        self.stored >= self.wanted
+    }
+
+    /// Adds whole paths until there are enough, and gives their photons; work done ahead of the path that completes the
+    /// number is dropped.
+    pub(super) fn add(&mut self, traced: &Traced, paths: &PhotonPaths<'_>) -> anyhow::Result<&[Photon]> {
+        let mut from = 0;
+        self.packed.clear();
+        for &end in &traced.path_ends {
+            if self.is_complete() {
+                break;
+            }
+            for photon in &traced.photons[from..end] {
+                let id = self.stored;
+                let Some(photon) = paths.pack(id, photon) else {
+                    bail!("the power of photon {id} is beyond what a photon can hold; is the light's Ke right?");
+                };
+                self.packed.push(photon);
+                self.stored += 1;
+            }
+            from = end;
+            self.emitted += 1;
+        }
+        Ok(&self.packed)
+    }
+}

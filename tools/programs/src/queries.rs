@@ -1,0 +1,128 @@
+//! `pm-queries`: casts the rays of a picture and writes where photons are to be gathered.
+
+mod args;
+mod base;
+mod cache;
+mod cast;
+mod guide;
+mod sample;
+
+pub use args::Args;
+
+use crate::cli::{Progress, Typed};
+use crate::setting;
+use base::{Base, Exposure};
+use cast::Casting;
+use guide::GuidePhotons;
+use pm_formats::vocabulary::{meaning, measure};
+use pm_formats::{Header, Number, RecordWriter, StageReport};
+use pm_light::scene::Scene;
+use pm_light::transport::{CacheOptions, CacheRecords, GatherRays, RayCounts};
+use pm_orders::Generative;
+use sample::Sample;
+
+/// Does what was asked.
+///
+/// # Errors
+/// If it was asked wrongly, the scene cannot be loaded, or an output cannot be written.
+pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    args.check()?;
+    let scene = args.scene.load(&args.common)?;
+    let camera = args.scene.camera(&scene, &args.camera, &args.common)?;
+    let (size, order) = (camera.size(), args.order()?);
+    let threads = args.common.threads();
+
+    let mut header = header(&args, &scene, size, order);
+    let mut step = typed.step(Some(args.seed));
+    let guide = args.guide.as_ref().map(|path| GuidePhotons::read(path, &header.bounds, &args.common)).transpose()?;
+    guide.iter().for_each(|guide| guide.describe(&mut header, &mut step));
+    header.history.push(step);
+
+    let rays = GatherRays::new(&scene, camera, args.options(&scene.bounds)).with_bins(order.bins());
+    let rays = guide.into_iter().fold(rays, |rays, guide| guide.guide(rays, &args.common));
+    let mut counts = RayCounts::default();
+    let sample = args.sample.choose(order, size, &rays, threads, &mut counts)?;
+    sample.set_meaning(&mut header);
+    let to_do = sample.size(order, size);
+    let gathers_a_pixel = u64::from(args.samples) * u64::from(args.gathers());
+    header.expected_records = Some(to_do * if sample.is_of_rays() { 1 } else { gathers_a_pixel });
+
+    // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
+    let mut base = args.base.as_ref().map(|path| Base::create(path, size, &scene)).transpose()?;
+    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let options = |accuracy| CacheOptions { accuracy, spacing: args.spacing };
+    let cache = args.irradiance_cache.map(|accuracy| CacheRecords::decide(&rays, options(accuracy)));
+    if let Some(cache) = &cache {
+        cache::write_cache(cache, &rays, size, threads, &mut output)?;
+    }
+
+    let progress = Progress::new(Some(to_do), sample.unit(), args.common.quiet);
+    let exposure = base.is_some().then(|| Exposure::new(&scene));
+    let casting =
+        Casting { rays: &rays, cache: cache.as_ref(), sample: &sample, order, size, gathers_a_pixel, exposure };
+    casting.run(threads, |cast, job| {
+        output.write(job.meta, &cast.queries)?;
+        base.as_mut().map_or(Ok(()), |base| base.add(cast.light))?;
+        counts += cast.counts;
+        progress.add(job.size());
+        Ok(())
+    })?;
+    drop(progress);
+
+    if counts.eye > 0 && counts.seen == 0 {
+        let eye = if sample.is_of_batches() { "what was chosen of the picture" } else { "the camera" };
+        args.common.remark(format!("{eye} sees no diffuse surface: there are no queries"));
+    }
+    // Complete before the end block is: whoever has read that may read the picture.
+    base.map_or(Ok(()), Base::finish)?;
+    let report = report(&args, &scene, &sample, cache.as_ref(), counts, StageReport::new(typed.program()));
+    output.finish(vec![report])?.commit()
+}
+
+/// What the header says of the picture and its rays.
+fn header(args: &Args, scene: &Scene, size: [u32; 2], order: Generative) -> Header {
+    let mut header = setting::header(scene);
+    header.image = size;
+    header.set_meaning(meaning::ORDER, order);
+    if args.direct_visualisation {
+        header.set_meaning(meaning::GATHERS, "none: direct visualisation");
+    } else {
+        header.set_meaning(meaning::GATHERS, args.gathers());
+    }
+    if let Some(accuracy) = args.irradiance_cache {
+        header.set_meaning(meaning::IRRADIANCE_CACHE, accuracy);
+    }
+    if args.samples > 1 {
+        header.set_meaning(meaning::SAMPLES, args.samples);
+    }
+    header
+}
+
+/// What the end block says of the work.
+fn report(
+    args: &Args,
+    scene: &Scene,
+    sample: &Sample,
+    cache: Option<&CacheRecords>,
+    counts: RayCounts,
+    report: StageReport,
+) -> StageReport {
+    let mut report = report
+        .with(measure::EYE_RAYS, Number::Count(counts.eye))
+        .with(measure::GATHER_RAYS, Number::Count(counts.gather))
+        .with(measure::GATHER_RAYS_LOST, Number::Count(counts.gather_lost));
+    report = sample.measure(report);
+    if let Some(cache) = cache {
+        report = report.with("irradiance_records", Number::Count(cache.len() as u64));
+    }
+    if counts.eye_again > 0 {
+        report = report.with(measure::EYE_RAYS_AGAIN, Number::Count(counts.eye_again));
+    }
+    if args.options(&scene.bounds).min_gather_dist > 0.0 {
+        report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
+    }
+    if args.guide.is_some() {
+        report = report.with("points_guided", Number::Count(counts.guided));
+    }
+    report
+}
