@@ -11,7 +11,7 @@ fn gathered(folder: &Folder, options: &str) -> (Vec<f64>, HashMap<String, f64>) 
     let (names, values) = text.trim().split_once('\n').expect("two lines");
     let numbers = names.split(',').zip(values.split(','));
     let numbers = numbers.filter_map(|(name, value)| Some((name.to_owned(), value.parse().ok()?))).collect();
-    let pixels = Picture::read_exr(&folder.path("x.exr")).unwrap().pixels;
+    let pixels = Picture::decode_exr(&folder.read("x.exr")).unwrap().pixels;
     (pixels.into_iter().flatten().map(f64::from).collect(), numbers)
 }
 

@@ -272,7 +272,7 @@ fn the_base_picture_is_whole_before_the_stream_ends() {
     let mut stream = vec![];
     child.stdout.take().unwrap().read_to_end(&mut stream).unwrap();
     assert!(check(&stream).is_ok());
-    assert!(pm_pictures::Picture::read_exr(&folder.path("direct.exr")).is_ok());
+    assert!(pm_pictures::Picture::decode_exr(&folder.read("direct.exr")).is_ok());
     Outcome::when_done(&line, child).ok();
 
     let pipe = "pm-queries --size 16x12 --base both.exr | pm-gather --base both.exr --image out.exr --no-trace";

@@ -13,7 +13,7 @@ fn means(folder: &Folder, options: &str) -> Vec<f64> {
         let line = "pm-queries --size 20x20 --gathers 16 --no-caustics -o q.pmq";
         folder.run(&format!("{line} --seed {seed} {options}")).ok();
         folder.run("pm-gather map.pmp q.pmq -k 50 --no-trace --image x.exr").ok();
-        let pixels = Picture::read_exr(&folder.path("x.exr")).unwrap().pixels;
+        let pixels = Picture::decode_exr(&folder.read("x.exr")).unwrap().pixels;
         pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>() / 1200.0
     };
     (1..=8).map(mean).collect()

@@ -250,7 +250,7 @@ fn the_picture_is_the_same_to_the_last_bit() {
     // There is something in the picture: light in nearly every pixel, more of it than direct light alone, and another
     // picture for another question.
     let sum = |name: &str| {
-        let pixels = Picture::read_exr(&folder.path(name)).unwrap().pixels;
+        let pixels = Picture::decode_exr(&folder.read(name)).unwrap().pixels;
         assert_eq!(pixels.len(), 16 * 12);
         pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>()
     };

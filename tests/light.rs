@@ -30,7 +30,7 @@ fn photons_in(folder: Folder, scene_name: &str, options: &str) -> Folder {
 fn render(folder: &Folder, scene_name: &str, queries: &str, gather: &str) -> Picture {
     folder.run(&format!("pm-queries {} {queries} -t 2 --base base.exr -o q.pmq", scene(scene_name))).ok();
     folder.run(&format!("pm-gather map.pmp q.pmq {gather} --base base.exr --image x.exr --no-trace -t 2")).ok();
-    Picture::read_exr(&folder.path("x.exr")).unwrap()
+    Picture::decode_exr(&folder.read("x.exr")).unwrap()
 }
 
 /// Mean of a rectangle of pixels, per channel.
@@ -203,7 +203,7 @@ fn a_caustic_map_of_its_own_leaves_the_light_and_takes_the_sparkle() {
     // The caustic map is looked up at the points seen; no light is added twice: the picture so far is the base.
     folder.run(&format!("pm-queries {} --size 48x48 --direct-visualisation -o eye.pmq", scene("cornell"))).ok();
     folder.run("pm-gather caustics.pmp eye.pmq --base x.exr --image sum.exr --no-trace --kernel cone").ok();
-    let sum = Picture::read_exr(&folder.path("sum.exr")).unwrap();
+    let sum = Picture::decode_exr(&folder.read("sum.exr")).unwrap();
 
     let all = |picture: &Picture| mean(picture, 0..48, 0..48);
     let share = (all(&whole)[1] - all(&without)[1]) / all(&whole)[1];
@@ -239,7 +239,7 @@ fn cached_irradiance_gives_the_picture_with_a_fraction_of_the_searches() {
     let full = searches("full", "");
     let cached = searches("cached", "--irradiance-cache 0.1");
     assert!(cached < full / 3.0, "{cached} searches for {full}");
-    let [full, cached] = ["full.exr", "cached.exr"].map(|name| Picture::read_exr(&folder.path(name)).unwrap());
+    let [full, cached] = ["full.exr", "cached.exr"].map(|name| Picture::decode_exr(&folder.read(name)).unwrap());
     let ratio = worst(mean(&cached, 0..96, 0..96), mean(&full, 0..96, 0..96));
     assert!((ratio - 1.0).abs() < 0.03, "mean with the cache / mean without = {ratio}");
     // Walls, where a leak or a wrong gradient would show.

@@ -1,14 +1,14 @@
 //! Do the pictures of `pm-gather` say where they come from, and does exposure brighten previews alone?
 
 use crate::support::{Folder, same_bytes};
-use pm_pictures::{Description, Picture};
+use pm_pictures::{Description, Picture, PictureFormat};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 /// The comments of an EXR file, line by line.
 fn comments(folder: &Folder, name: &str) -> Vec<String> {
-    let description = Description::read(&folder.path(name)).unwrap();
+    let description = Description::of_exr(&folder.read(name)).unwrap();
     let comments = description.attributes.into_iter().find(|(name, _)| name == "comments").expect("comments");
     comments.1.lines().map(str::to_owned).collect()
 }
@@ -77,9 +77,8 @@ fn exposure_doubles_the_light_of_previews_alone() {
     // No photon counts, so that the picture is its base: half, once and twice the linear value whose sRGB byte is 128.
     let middle = 0.215_861;
     let pixels = (0..16 * 12).map(|i| [[0.5, 1.0, 2.0][i % 3] * middle; 3]).collect();
-    let (mut bytes, base) = (vec![], Picture { size: [16, 12], pixels });
-    base.write(Path::new("base.exr"), &mut bytes, "pm", &[]).unwrap();
-    folder.write("base.exr", bytes);
+    let base = Picture { size: [16, 12], pixels };
+    folder.write("base.exr", base.encode(PictureFormat::Exr, "pm", &[]).unwrap());
     // From the standard's curve, 255 (1.055 x^(1/2.4) - 0.055), for a quarter of the middle to four times it.
     let curve = [66, 92, 128, 176, 239];
     for (stops, from) in [(-1, 0), (0, 1), (1, 2)] {
@@ -87,6 +86,6 @@ fn exposure_doubles_the_light_of_previews_alone() {
         folder.run(&format!("{line} --image x.exr --image x.png")).ok();
         let expected: Vec<u8> = (0..16 * 12).flat_map(|i| [curve[from + i % 3]; 3]).collect();
         assert_eq!(png_pixels(&folder.path("x.png")), expected, "{stops} stops");
-        assert_eq!(Picture::read_exr(&folder.path("x.exr")).unwrap(), base, "{stops} stops");
+        assert_eq!(Picture::decode_exr(&folder.read("x.exr")).unwrap(), base, "{stops} stops");
     }
 }

@@ -18,7 +18,7 @@ fn in_a_furnace_the_radiance_is_the_known_one() {
     for k in [50, 100] {
         let line = format!("pm-gather map.pmp q.pmq --precomputed -k {k} -t 2 --no-trace --base base.exr");
         folder.run(&format!("{line} --image x.exr")).ok();
-        let picture = Picture::read_exr(&folder.path("x.exr")).unwrap();
+        let picture = Picture::decode_exr(&folder.read("x.exr")).unwrap();
         let count = picture.pixels.len() as f64;
         for (channel, known) in [1.25, 2.0, 5.0].into_iter().enumerate() {
             let mean = picture.pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / count;
@@ -35,7 +35,7 @@ fn the_light_is_that_of_the_full_estimate() {
     let gather = "pm-gather map.pmp q.pmq -t 2 --base base.exr";
     folder.run(&format!("{gather} --image full.exr -o full.pmt")).ok();
     folder.run(&format!("{gather} --precomputed --image own.exr -o own.pmt")).ok();
-    let [full, own] = ["full.exr", "own.exr"].map(|name| Picture::read_exr(&folder.path(name)).unwrap());
+    let [full, own] = ["full.exr", "own.exr"].map(|name| Picture::decode_exr(&folder.read(name)).unwrap());
     let apart = Comparison::new(&full, &own).unwrap();
     assert!(apart.ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.03), "{apart:?}");
     // No pixel is altogether another: leaks of light would show.
@@ -90,7 +90,7 @@ fn cached_irradiance_takes_it_as_well() {
     same_bytes("in another order", &own, &picture("r.pmq --precomputed -t 3"));
     folder.write("own.exr", own);
     folder.write("full.exr", picture("q.pmq"));
-    let [full, own] = ["full.exr", "own.exr"].map(|name| Picture::read_exr(&folder.path(name)).unwrap());
+    let [full, own] = ["full.exr", "own.exr"].map(|name| Picture::decode_exr(&folder.read(name)).unwrap());
     let apart = Comparison::new(&full, &own).unwrap();
     assert!(apart.differing > 0 && apart.ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.03), "{apart:?}");
 }
@@ -164,7 +164,7 @@ fn where_no_normal_fits_there_is_no_light_and_that_is_said() {
     let outcome = folder.run("pm-gather map.pmp q.pmq -k 3 --precomputed --image x.exr -o t.pmt");
     assert_eq!(outcome.code, 0, "{}", outcome.stderr);
     assert!(outcome.stderr.contains("2 of 2 queries have no precomputed irradiance"), "{}", outcome.stderr);
-    assert_eq!(Picture::read_exr(&folder.path("x.exr")).unwrap(), Picture::black([2, 1]));
+    assert_eq!(Picture::decode_exr(&folder.read("x.exr")).unwrap(), Picture::black([2, 1]));
     let text = folder.run("pm-view t.pmt").ok();
     for said in ["precomputed_sites 0", "build_searches 3", "build_searches_without_area 3", "lookups_without_site 2"] {
         assert!(text.text().contains(said), "{said}\n{}", text.text());

@@ -11,7 +11,7 @@ fn scene(name: &str) -> String {
 fn picture(folder: &Folder, scene_name: &str, queries: &str, gather: &str) -> Vec<[f32; 3]> {
     folder.run(&format!("pm-queries {} {queries} -o q.pmq", scene(scene_name))).ok();
     folder.run(&format!("pm-gather map.pmp q.pmq {gather} --no-trace --image x.exr")).ok();
-    Picture::read_exr(&folder.path("x.exr")).unwrap().pixels
+    Picture::decode_exr(&folder.read("x.exr")).unwrap().pixels
 }
 
 /// Deviation of a pixel from one seed of the rays to the next, root of the mean square over the picture.

@@ -3,8 +3,7 @@
 use crate::streams::check;
 use crate::support::{Folder, same_text};
 use pm_formats::vocabulary::measure;
-use pm_pictures::Picture;
-use std::path::Path;
+use pm_pictures::{Picture, PictureFormat};
 
 /// The same text but for the last digit of directions: those on an edge of the octahedron have two codes each.
 fn same_numbers(what: &str, expected: &[u8], got: &[u8]) {
@@ -54,7 +53,7 @@ fn imported_points_go_through_every_program() {
     // The searches are those of the streams themselves.
     let tally = |line: &str| check(&folder.run(line).ok().stdout).unwrap();
     assert_eq!(tally("pm-gather map.pmp q.pmq"), tally("pm-gather -q theirs.pmp theirs.pmq"));
-    assert!(Picture::read_exr(&folder.path("theirs.exr")).unwrap().pixels.iter().flatten().sum::<f32>() > 0.0);
+    assert!(Picture::decode_exr(&folder.read("theirs.exr")).unwrap().pixels.iter().flatten().sum::<f32>() > 0.0);
 }
 
 #[test]
@@ -79,9 +78,8 @@ fn faults_leave_no_output() {
 fn exr(folder: &Folder, name: &str, size: [u32; 2], value: f32) {
     let mut picture = Picture::black(size);
     picture.pixels.fill([value, 2.0 * value, 4.0 * value]);
-    let mut bytes = vec![];
-    picture.write(Path::new(name), &mut bytes, "pm", &[("photonmap.k", "9".into())]).unwrap();
-    folder.write(name, bytes);
+    let bytes = picture.encode(PictureFormat::Exr, "pm 0.1", &[("photonmap.k", "9".into())]);
+    folder.write(name, bytes.unwrap());
 }
 
 #[test]

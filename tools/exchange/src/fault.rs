@@ -30,6 +30,13 @@ pub fn bad_input(text: impl Into<String>) -> anyhow::Error {
 #[derive(Debug)]
 pub struct BadQuestion(String);
 
+impl BadQuestion {
+    /// The error that says so.
+    pub fn new(text: impl Into<String>) -> Self {
+        Self(text.into())
+    }
+}
+
 impl fmt::Display for BadQuestion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
@@ -40,5 +47,5 @@ impl std::error::Error for BadQuestion {}
 
 /// An error that says what is wrong with what was asked.
 pub(crate) fn bad_question(text: impl Into<String>) -> anyhow::Error {
-    BadQuestion(text.into()).into()
+    BadQuestion::new(text).into()
 }

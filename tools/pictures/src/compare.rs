@@ -1,7 +1,6 @@
 //! How far a picture is from another that it should agree with.
 
-use super::Picture;
-use anyhow::ensure;
+use crate::{Picture, PictureError, Result};
 
 /// Keeps the relative error of dark pixels finite: the usual choice where relMSE is reported (Rousselle, Knaus, Zwicker:
 /// *Adaptive Sampling and Reconstruction using Greedy Error Minimization*, SIGGRAPH Asia 2011).
@@ -34,9 +33,10 @@ impl Comparison {
     ///
     /// # Errors
     /// If they are not of the same size.
-    pub fn new(a: &Picture, b: &Picture) -> anyhow::Result<Self> {
-        let [[w, h], [v, g]] = [a.size, b.size];
-        ensure!(a.size == b.size, "the pictures are of {w}x{h} and {v}x{g} pixels; only equal sizes can be compared");
+    pub fn new(a: &Picture, b: &Picture) -> Result<Self> {
+        if a.size != b.size {
+            return Err(PictureError::SizesDiffer(a.size, b.size));
+        }
         let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite());
         let (mut compared, mut differing, mut not_finite) = (0u64, 0, 0);
         let (mut sums, mut squares, mut relative, mut absolute, mut largest) = ([[0f64; 3]; 2], 0.0, 0.0, 0.0, 0f64);

@@ -1,8 +1,8 @@
 //! What an EXR file says of itself, and what its channels hold.
 
-use anyhow::Context as _;
-use exr::prelude::read_first_flat_layer_from_file;
-use std::path::Path;
+use crate::{PictureError, Result};
+use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+use std::io::Cursor;
 
 /// A channel of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,13 +31,14 @@ pub struct Description {
 }
 
 impl Description {
-    /// Reads an EXR file.
+    /// Of the bytes of an EXR file.
     ///
     /// # Errors
-    /// If there is none at `path`.
-    pub fn read(path: &Path) -> anyhow::Result<Self> {
-        let image = read_first_flat_layer_from_file(path);
-        let image = image.with_context(|| format!("{} is no readable EXR image", path.display()))?;
+    /// If there is none.
+    pub fn of_exr(bytes: &[u8]) -> Result<Self> {
+        let reader = read().no_deep_data().largest_resolution_level().all_channels();
+        let image = reader.first_valid_layer().all_attributes().from_buffered(Cursor::new(bytes));
+        let image = image.map_err(PictureError::NotExr)?;
         let layer = image.layer_data;
         let channels = layer.channel_data.list.iter().map(|channel| {
             let mut described = Channel {

@@ -1,7 +1,6 @@
 //! Means of rectangles of a picture: what two renderers that share no noise can be compared by.
 
-use super::Picture;
-use anyhow::ensure;
+use crate::{Picture, PictureError};
 use std::fmt;
 use std::str::FromStr;
 
@@ -56,14 +55,16 @@ impl RegionMean {
     ///
     /// # Errors
     /// If it reaches beyond the picture.
-    pub fn new(picture: &Picture, region: Region) -> anyhow::Result<Self> {
+    pub fn new(picture: &Picture, region: Region) -> Result<Self, PictureError> {
         let [width, height] = picture.size;
         let rectangle = match region {
             Region::All => [0, 0, width, height],
             Region::Rectangle(rectangle) => rectangle,
         };
         let [x0, y0, x1, y1] = rectangle;
-        ensure!(x1 <= width && y1 <= height, "region {region} reaches beyond the picture of {width}x{height} pixels");
+        if x1 > width || y1 > height {
+            return Err(PictureError::RegionBeyond { region, size: picture.size });
+        }
         let (mut sum, mut finite, mut not_finite) = ([0f64; 3], 0u64, 0);
         for y in y0..y1 {
             let row = &picture.pixels[y as usize * width as usize..][x0 as usize..x1 as usize];

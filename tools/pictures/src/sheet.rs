@@ -1,10 +1,7 @@
 //! A contact sheet: pictures beside one another, each with its name.
 
-use super::{Picture, encode_png};
-use anyhow::{Context as _, ensure};
+use crate::{PictureError, Preview, Result, png_image};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
-use std::io::BufReader;
-use std::path::Path;
 
 /// Around pictures and between them, in pixels.
 const GAP: usize = 12;
@@ -15,49 +12,14 @@ const LABEL_GAP: usize = 4;
 const PAPER: u8 = 24;
 const INK: u8 = 230;
 
-/// A picture as a screen shows it: 8 bits, sRGB, row by row from the upper left corner.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Preview {
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Its pixels.
-    pub pixels: Vec<[u8; 3]>,
-}
-
-impl Preview {
-    /// Reads a preview in PNG, or makes one of an EXR picture, brightened by so many stops.
-    ///
-    /// # Errors
-    /// If there is no such picture at `path`.
-    pub fn read(path: &Path, stops: f32) -> anyhow::Result<Self> {
-        match super::Format::of(path)? {
-            super::Format::Exr => Ok(Picture::read_exr(path)?.exposed(stops).preview()),
-            super::Format::Png => Self::read_png(path),
-        }
-    }
-
-    fn read_png(path: &Path) -> anyhow::Result<Self> {
-        let what = || format!("{} is no readable PNG image", path.display());
-        let file = std::fs::File::open(path).with_context(|| path.display().to_string())?;
-        let mut decoder = png::Decoder::new(BufReader::new(file));
-        decoder.set_transformations(png::Transformations::normalize_to_color8());
-        let mut reader = decoder.read_info().with_context(what)?;
-        let mut bytes = vec![0; reader.output_buffer_size().with_context(what)?];
-        let frame = reader.next_frame(&mut bytes).with_context(what)?;
-        let samples = frame.color_type.samples();
-        // Grey has one sample or two, colour three or four; the last of an even number is opacity.
-        let colour = |pixel: &[u8]| if samples < 3 { [pixel[0]; 3] } else { [pixel[0], pixel[1], pixel[2]] };
-        let pixels = bytes[..frame.buffer_size()].chunks_exact(samples).map(colour).collect();
-        Ok(Self { size: [frame.width, frame.height], pixels })
-    }
-}
-
 /// Puts named pictures into rows, as near to a square as can be, and writes them as a PNG.
 ///
 /// # Errors
 /// If there is none, or the sheet cannot be encoded.
-pub fn contact_sheet(pictures: &[(String, Preview)]) -> anyhow::Result<Vec<u8>> {
-    ensure!(!pictures.is_empty(), "a contact sheet needs pictures");
+pub fn contact_sheet(pictures: &[(String, Preview)]) -> Result<Vec<u8>> {
+    if pictures.is_empty() {
+        return Err(PictureError::EmptySheet);
+    }
     let largest = |axis: usize| pictures.iter().map(|(_, p)| p.size[axis] as usize).max().unwrap_or(0);
     let (width, height) = (largest(0), largest(1));
     let columns = (1..).find(|n| n * n >= pictures.len()).unwrap_or(1);
@@ -77,7 +39,7 @@ pub fn contact_sheet(pictures: &[(String, Preview)]) -> anyhow::Result<Vec<u8>> 
         write_label(&mut sheet, size[0], [at[0], at[1] + height + LABEL_GAP], width, name);
     }
     let bytes: Vec<u8> = sheet.into_iter().flatten().collect();
-    encode_png(size.map(|x| u32::try_from(x).unwrap_or(u32::MAX)), &bytes)
+    png_image::encode(size.map(|x| u32::try_from(x).unwrap_or(u32::MAX)), &bytes)
 }
 
 /// Writes a name in the middle of a place of a sheet; what does not fit in is left out.
@@ -113,10 +75,7 @@ mod tests {
         let sizes = [[40, 30], [40, 30], [20, 30], [40, 10], [7, 5]];
         let pictures: Vec<(String, Preview)> =
             colours.iter().zip(sizes).map(|(&c, size)| ("ab".into(), plain(size, c))).collect();
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("sheet.png");
-        std::fs::write(&path, contact_sheet(&pictures).unwrap()).unwrap();
-        let sheet = Preview::read(&path, 0.0).unwrap();
+        let sheet = Preview::decode(crate::PictureFormat::Png, &contact_sheet(&pictures).unwrap(), 0.0).unwrap();
         // Three columns and two rows.
         assert_eq!(sheet.size, [3 * (40 + 12) + 12, 2 * (30 + 4 + 16 + 12) + 12]);
         for (colour, [w, h]) in colours.into_iter().zip(sizes) {
@@ -137,19 +96,5 @@ mod tests {
         let pictures = [("a-name-that-is-longer-than-its-picture".into(), plain([30, 8], [9; 3]))];
         assert!(contact_sheet(&pictures).is_ok());
         assert!(contact_sheet(&[]).is_err());
-    }
-
-    #[test]
-    fn what_png_was_written_is_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let picture = Picture { size: [2, 2], pixels: vec![[0.0, 0.215_861, 1.0], [2.0; 3], [0.5; 3], [0.1; 3]] };
-        for name in ["x.png", "x.exr"] {
-            let path = folder.path().join(name);
-            let mut bytes = vec![];
-            picture.write(&path, &mut bytes, "pm", &[]).unwrap();
-            std::fs::write(&path, bytes).unwrap();
-            assert_eq!(Preview::read(&path, 0.0).unwrap(), picture.preview(), "{name}");
-        }
-        assert_eq!(picture.preview().pixels[0], [0, 128, 255]);
     }
 }

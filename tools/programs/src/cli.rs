@@ -2,10 +2,12 @@
 
 mod choice;
 mod chooser;
+mod entry;
 mod error;
 mod input;
 mod outcome;
 mod output;
+mod picture;
 mod program;
 mod progress;
 mod typed;
@@ -13,9 +15,11 @@ mod usage;
 
 pub use choice::{ChoiceParser, choice};
 pub use chooser::Chooser;
+pub use entry::{EntryParser, entry};
 pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use outcome::Outcome;
 pub use output::{Output, OutputArgs, create_output};
+pub use picture::{describe_picture, picture_format, read_picture, read_preview, write_picture};
 pub use program::Program;
 pub use progress::Progress;
 pub use usage::{UsageError, usage};

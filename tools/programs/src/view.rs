@@ -1,7 +1,68 @@
-//! Streams as text.
+//! `pm-view`: looks into streams, at what they are about, where they came from, whether they are whole, what their records
+//! say; compares pictures; reads and writes other programs' data.
 
+mod args;
+mod export;
+mod header;
+mod import;
+mod look;
 mod pictures;
-mod summary;
+mod tables;
+mod whole;
 
-pub use pictures::{Flips, comparison, picture, regions};
-pub use summary::{Whole, end, header, read_to_end};
+pub use args::Args;
+
+use crate::cli::{Program, Typed, create_output, entry, named, open_input, usage};
+use anyhow::Context as _;
+use clap::{CommandFactory as _, FromArgMatches as _};
+use pictures::is_picture;
+use pm_exchange::traces::TraceExport;
+use pm_registry::Registry;
+use std::path::Path;
+
+/// The program, where traces may be written in these formats.
+#[must_use]
+pub fn program(exports: &Registry<dyn TraceExport>) -> Program<Args> {
+    let command = Args::command().mut_arg("export", |argument| argument.value_parser(entry(exports)));
+    Program::new("pm-view", command, Args::from_arg_matches)
+}
+
+/// Does what is asked.
+///
+/// # Errors
+/// Whatever is wrong with the question, an input or the output.
+pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    if let Some(what) = args.import {
+        return import::import(what, &args, typed);
+    }
+    if let Some(sheet) = &args.sheet {
+        return pictures::make_sheet(sheet, &args);
+    }
+    if let Some(format) = args.export {
+        return export::export(format, &args);
+    }
+    let pictures = args.streams.iter().filter(|path| is_picture(path)).count();
+    if !args.mean.is_empty() && pictures < args.streams.len() {
+        return Err(usage("--mean measures .exr pictures"));
+    }
+    let of_streams = args.history || args.check || args.records.is_some();
+    if args.mean.is_empty() && pictures > 0 && (pictures > 2 || pictures < args.streams.len() || of_streams) {
+        return Err(usage(
+            "pictures are described one at a time or compared two at a time, without other options; --mean and --sheet take more",
+        ));
+    }
+    let mut output = create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?;
+    match &args.streams[..] {
+        _ if !args.mean.is_empty() => pictures::measure(&args, &mut output)?,
+        [picture] if pictures == 1 => pictures::describe(picture, &mut output)?,
+        [a, b] if pictures == 2 => pictures::compare(a, b, &args, &mut output)?,
+        streams => {
+            for path in streams {
+                let name = named(path);
+                let stream = open_input(path)?;
+                look::look(&args, &name, stream, &mut output).with_context(|| name.clone())?;
+            }
+        }
+    }
+    output.commit()
+}

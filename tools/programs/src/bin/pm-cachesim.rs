@@ -1,14 +1,13 @@
 //! Simulates caches over a trace and prints what each would fetch.
 
 use anyhow::Context as _;
-use clap::Parser;
+use clap::{CommandFactory as _, Parser};
 use pm_caches::{CacheConfig, LaneSource, Lanes, Measures, ResultMemory, Simulation, Span, WindowError, Windows};
-use pm_exchange::foreign::{self, Form, Opened};
+use pm_exchange::traces::{self, Opened, imports};
 use pm_formats::Header;
 use pm_formats::trace::{Access, TraceReader, TraceSink};
 use pm_programs::cli::choice;
 use pm_programs::cli::{self, Progress, Typed, Voice, create_output, named, open_bytes, usage};
-use pm_registry::Choice as _;
 use pm_report::Format;
 use pm_size::Bytes;
 use std::io::{Read, Write as _};
@@ -41,10 +40,9 @@ use sizes::Sizes;
 /// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
 /// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
 /// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
-/// json have all. Traces of other simulators are read too, plain or compressed: text formats (din, xdin, lackey, dramsim3,
-/// ramulator2, csv) tell themselves, binary ones (raw32, raw64, dinb, oracleGeneral) have to be named with --input. They
-/// have no queries, and their blocks are those of the 4 KiB pages they touch. Of a trace of windows (pm-queries --only-tiles,
-/// pm-sample --every) each window is simulated from an empty cache, and the numbers are estimates with 95 % intervals.
+/// json have all. Traces of other simulators are read too, plain or compressed: texts tell their format by their first line,
+/// binary ones have to be named with --input. They have no queries, and their blocks are those of the 4 KiB pages they
+/// touch. Of a trace of windows (pm-queries --only-tiles, pm-sample --every) each window is simulated from an empty cache, and the numbers are estimates with 95 % intervals.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 struct Args {
@@ -97,9 +95,6 @@ struct Args {
     /// Which searches fly together: the next of the stream, or one of each of as many parts of a batch
     #[arg(long, value_name = "HOW", default_value = "stream", requires = "lanes", hide_short_help = true, value_parser = choice::<LaneSource>())]
     lanes_from: LaneSource,
-    /// Format of the traces; without it, as the content tells (ours, or a text), gzip or zstd around it
-    #[arg(long, value_name = "FORMAT", hide_possible_values = true, value_parser = choice::<Form>())]
-    input: Option<Form>,
     #[command(flatten)]
     foreign: ForeignArgs,
     /// How to print the result
@@ -117,7 +112,7 @@ Examples:
   pm-cachesim --cache 16K,4,64,lru,hash --misses - trace.pmt | pm-cachesim --curve";
 
 fn main() -> ExitCode {
-    cli::main("pm-cachesim", run)
+    cli::main_of("pm-cachesim", ForeignArgs::of_formats(Args::command(), &imports()), run)
 }
 
 fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
@@ -241,8 +236,8 @@ fn simulate(
     results: &mut Results,
 ) -> anyhow::Result<()> {
     let name = named(path);
-    let reading = args.foreign.reading(args.input);
-    let opened = open_bytes(path).and_then(|input| foreign::open(input, &reading).context(name.clone()))?;
+    let reading = args.foreign.reading();
+    let opened = open_bytes(path).and_then(|input| traces::open(input, &reading, &imports()).context(name.clone()))?;
     match opened {
         Opened::Ours(blocks) => {
             let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
@@ -260,7 +255,7 @@ fn simulate(
             let measures = Measures { results: None, ..measures.clone() };
             let mut simulation = Simulation::measuring(trace.regions(), configs, &measures).context(name.clone())?;
             trace.replay(&mut simulation).context(name)?;
-            let source = Source::foreign(trace.form().word().to_owned(), trace.regions());
+            let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
             results.add(args, &source, 1, simulation.findings())
         }
     }

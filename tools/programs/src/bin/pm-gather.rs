@@ -16,7 +16,7 @@ use pm_maps::gather::{
 };
 use pm_maps::{AnyMap, Building, PhotonMap, Search, StartRadius};
 use pm_parallel::in_order;
-use pm_pictures::{Format, Picture};
+use pm_pictures::{Picture, PictureFormat};
 use pm_programs::cli::choice;
 use pm_programs::cli::{
     self, Common, Input, Output, OutputArgs, Progress, Typed, Whole, create_output, named, open_input,
@@ -146,7 +146,7 @@ fn start_radius(text: &str) -> Result<StartRadius, String> {
 
 fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     for image in &args.image {
-        Format::of(image)?;
+        cli::picture_format(image)?;
     }
     if args.photons == Path::new("-") && args.queries == Path::new("-") {
         return Err(cli::usage(
@@ -455,18 +455,18 @@ fn write_images(
         return Ok(());
     }
     if let Some(base) = &args.base {
-        picture.add(&Picture::read_exr(base)?).with_context(|| base.display().to_string())?;
+        picture.add(&cli::read_picture(base)?).with_context(|| base.display().to_string())?;
     }
     let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite());
     let odd = picture.pixels.iter().filter(|pixel| !finite(pixel)).count();
     ensure!(odd == 0, "{odd} pixels are not finite; is the base image damaged?");
     let preview = picture.exposed(args.exposure);
     for (path, mut output) in images {
-        let picture = if Format::of(path)? == Format::Png { &preview } else { &picture };
-        if Format::of(path)? == Format::Png && picture.clipped() > 0.0 {
+        let picture = if cli::picture_format(path)? == PictureFormat::Png { &preview } else { &picture };
+        if cli::picture_format(path)? == PictureFormat::Png && picture.clipped() > 0.0 {
             args.common.remark(format!("{}: {:.1} % of the pixels clipped", path.display(), picture.clipped() * 100.0));
         }
-        picture.write(path, &mut output, &cli::software(), attributes)?;
+        cli::write_picture(picture, path, &mut output, attributes)?;
         output.commit()?;
     }
     Ok(())

@@ -3,7 +3,6 @@
 use super::output::{ReaderGone, unfinished_files};
 use super::usage::UsageError;
 use pm_exchange::{BadInput, BadQuestion};
-use pm_pictures::UnknownEnding;
 use pm_registry::ParameterError;
 use std::io;
 
@@ -29,12 +28,7 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> (u8, Option<String>) {
         }
     }
     let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    let code = if found(|cause| {
-        cause.is::<UsageError>()
-            || cause.is::<ParameterError>()
-            || cause.is::<BadQuestion>()
-            || cause.is::<UnknownEnding>()
-    }) {
+    let code = if found(|cause| cause.is::<UsageError>() || cause.is::<ParameterError>() || cause.is::<BadQuestion>()) {
         2
     } else if is_bad_input(&error)
         || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))

@@ -7,7 +7,6 @@ use clap::Parser;
 use pm_light::scene::Bounds;
 use pm_light::transport::{GatherOptions, Method, Spread, Strata};
 use pm_orders::Generative;
-use pm_pictures::Format;
 use std::path::PathBuf;
 
 /// Cast eye rays and final-gather rays; write a gather query wherever one ends on a diffuse surface.
@@ -135,7 +134,7 @@ impl Args {
     /// Refuses what can be seen to be asked wrongly before anything is read.
     pub(super) fn check(&self) -> anyhow::Result<()> {
         if let Some(base) = &self.base {
-            Format::of(base)?;
+            cli::picture_format(base)?;
         }
         if u64::from(self.samples) * u64::from(self.gathers) > MOST_GATHERS {
             return Err(cli::usage(format!("--samples times --gathers is more than {MOST_GATHERS}")));

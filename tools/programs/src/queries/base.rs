@@ -1,6 +1,6 @@
 //! The base picture: light that needs no query, direct and emitted.
 
-use crate::cli::{self, Output, create_output};
+use crate::cli::{Output, create_output, write_picture};
 use anyhow::Context as _;
 use glam::Vec3;
 use pm_film::film::{Film, Overflow};
@@ -32,7 +32,7 @@ impl Base {
     /// Writes the picture.
     pub(super) fn finish(self) -> anyhow::Result<()> {
         let Self { path, mut file, size, film } = self;
-        Picture { size, pixels: film.pixels() }.write(&path, &mut file, &cli::software(), &[])?;
+        write_picture(&Picture { size, pixels: film.pixels() }, &path, &mut file, &[])?;
         file.commit().with_context(|| path.display().to_string())
     }
 }

@@ -1,86 +1,61 @@
-//! Pictures as text: one described, two compared, rectangles of any measured.
+//! Pictures: one described, two compared, rectangles of any measured, many on a sheet.
 
-use pm_pictures::{Comparison, Description, RegionMean};
-use pm_report::{Column, Table, Value};
-use std::io::{self, Write};
+use super::{Args, tables};
+use crate::cli::{create_output, describe_picture, named, picture_format, read_picture, read_preview, usage};
+use anyhow::Context as _;
+use pm_pictures::{Comparison, PictureFormat, RegionMean, contact_sheet, hdr_flip, ldr_flip};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Is it a picture that can be measured, by its name?
+pub(super) fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
+}
 
 /// Writes what there is to say of a picture.
-///
-/// # Errors
-/// What `output` reports.
-pub fn picture(description: &Description, output: &mut impl Write) -> io::Result<()> {
-    let Description { size: [width, height], channels, attributes } = description;
-    writeln!(output, "{:<12} {width} x {height} pixels", "picture")?;
-    for channel in channels {
-        let odd = match channel.not_finite {
-            0 => String::new(),
-            n => format!(", {n} values not finite"),
-        };
-        let (min, mean, max) = (channel.min, channel.mean, channel.max);
-        writeln!(output, "{:<12} {}: {min:.6} to {max:.6}, mean {mean:.6}{odd}", "channel", channel.name)?;
+pub(super) fn describe(picture: &Path, output: &mut impl Write) -> anyhow::Result<()> {
+    Ok(tables::picture(&describe_picture(picture)?, output)?)
+}
+
+/// Writes how far `b` is from `a`.
+pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) -> anyhow::Result<()> {
+    let [x, y] = [read_picture(a)?, read_picture(b)?];
+    let comparison = Comparison::new(&x, &y)?;
+    if comparison.differing == 0 {
+        args.voice.remark("the pictures are the same to the last bit");
     }
-    for (name, value) in attributes {
-        for line in value.lines() {
-            writeln!(output, "{name:<12} {line}")?;
+    let flips = tables::Flips {
+        ldr: ldr_flip(&x.exposed(args.exposure), &y.exposed(args.exposure), args.pixels_per_degree),
+        exposure: args.exposure,
+        hdr: hdr_flip(&x, &y, args.pixels_per_degree).mean,
+        pixels_per_degree: args.pixels_per_degree,
+    };
+    Ok(tables::comparison(&named(a), &named(b), &comparison, &flips).write(args.format, output)?)
+}
+
+/// Writes the means of rectangles of all pictures.
+pub(super) fn measure(args: &Args, output: &mut impl Write) -> anyhow::Result<()> {
+    let mut found = vec![];
+    for path in &args.streams {
+        let picture = read_picture(path)?;
+        for &region in &args.mean {
+            found.push((named(path), RegionMean::new(&picture, region).with_context(|| named(path))?));
         }
     }
-    Ok(())
+    Ok(tables::regions(&found).write(args.format, output)?)
 }
 
-/// Mean FLIP of two pictures, and how it was looked at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flips {
-    /// Of the previews.
-    pub ldr: f64,
-    /// Stops by which they were brightened.
-    pub exposure: f32,
-    /// Of the radiance.
-    pub hdr: f64,
-    /// Pixels to a degree of the field of view.
-    pub pixels_per_degree: f64,
-}
-
-/// The table of a comparison, one row; `a` is the reference.
-#[must_use]
-pub fn comparison(a: &str, b: &str, comparison: &Comparison, flips: &Flips) -> Table {
-    let real = |x: f64| Value::Float(x, 5);
-    let [r, g, b_ratio] = comparison.ratio.map(|x| Value::Float(x, 6));
-    let cells = [
-        (Column::text("a"), Value::Text(a.to_owned())),
-        (Column::text("b"), Value::Text(b.to_owned())),
-        (Column::number("pixels"), Value::Int(comparison.pixels)),
-        (Column::number("differing"), Value::Int(comparison.differing)),
-        (Column::number("not_finite"), Value::Int(comparison.not_finite)),
-        (Column::number("ratio_r"), r),
-        (Column::number("ratio_g"), g),
-        (Column::number("ratio_b"), b_ratio),
-        (Column::number("rmse"), real(comparison.rmse)),
-        (Column::number("rel_mse"), real(comparison.rel_mse)),
-        (Column::number("mae"), real(comparison.mae)),
-        (Column::number("max_difference"), real(comparison.largest)),
-        (Column::number("ldr_flip"), real(flips.ldr)),
-        (Column::number("exposure"), real(f64::from(flips.exposure))),
-        (Column::number("hdr_flip"), real(flips.hdr)),
-        (Column::number("pixels_per_degree"), Value::Float(flips.pixels_per_degree, 6)),
-    ];
-    let (columns, row) = cells.into_iter().unzip();
-    let mut table = Table::new(columns);
-    table.push(row);
-    table
-}
-
-/// A table of regions of pictures, a row for each picture's name and region.
-#[must_use]
-pub fn regions(found: &[(String, RegionMean)]) -> Table {
-    let names = ["x0", "y0", "x1", "y1", "pixels", "not_finite", "r", "g", "b"];
-    let numbers = names.into_iter().map(Column::number);
-    let mut table = Table::new(std::iter::once(Column::text("picture")).chain(numbers).collect());
-    for (picture, region) in found {
-        let counts = region.rectangle.into_iter().map(u64::from).chain([region.pixels, region.not_finite]);
-        let mut row = vec![Value::Text(picture.clone())];
-        row.extend(counts.map(Value::Int));
-        row.extend(region.mean.map(|mean| Value::Float(mean, 6)));
-        table.push(row);
+/// Puts all pictures on a contact sheet.
+pub(super) fn make_sheet(sheet: &Path, args: &Args) -> anyhow::Result<()> {
+    if picture_format(sheet)? != PictureFormat::Png {
+        return Err(usage("a contact sheet's name ends in .png"));
     }
-    table
+    let named = |path: &PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok((name, read_preview(path, args.exposure)?))
+    };
+    let previews = args.streams.iter().map(named).collect::<anyhow::Result<Vec<_>>>()?;
+    let mut output = create_output(sheet)?;
+    output.write_all(&contact_sheet(&previews)?)?;
+    output.commit()
 }

@@ -1,13 +1,17 @@
 //! How traces of other programs are read.
 
-use pm_exchange::foreign::{Form, Reading, References};
-use pm_programs::cli::choice;
+use clap::Command;
+use pm_exchange::traces::{Reading, References, TraceImport, assumed_sizes};
+use pm_programs::cli::{choice, entry};
+use pm_registry::Registry;
 
 /// How traces of other programs are read.
 #[derive(clap::Args)]
 pub(crate) struct ForeignArgs {
-    /// Bytes of every foreign access [default: as the trace says; where it does not, din 4 and the address that of a
-    /// word, dramsim3 and ramulator2 64, others 1]
+    /// Format of the traces; without it, as the content tells (ours, or a text), gzip or zstd around it
+    #[arg(long, value_name = "FORMAT", value_parser = entry(&pm_exchange::traces::imports()))]
+    input: Option<&'static dyn TraceImport>,
+    /// Bytes of every foreign access
     #[arg(long, value_name = "BYTES", hide_short_help = true)]
     access_size: Option<u32>,
     /// Bytes that 1 stands for in foreign addresses, such as the line where they are numbers of lines or objects
@@ -16,16 +20,27 @@ pub(crate) struct ForeignArgs {
     /// What to simulate of a foreign trace that has instructions too
     #[arg(long, value_name = "WHICH", default_value = "data", hide_short_help = true, value_parser = choice::<References>())]
     references: References,
-    /// Columns of a csv file without names: address, size, kind, and _ for one to skip
+    /// Columns of a file without names: address, size, kind, and _ for one to skip
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_short_help = true)]
     columns: Option<Vec<String>>,
 }
 
 impl ForeignArgs {
-    /// The same, for the reader of such traces; `form` if it is named.
-    pub(crate) fn reading(&self, form: Option<Form>) -> Reading {
+    /// The command of a program that has these arguments, where traces may be of these formats.
+    pub(crate) fn of_formats(command: Command, imports: &Registry<dyn TraceImport>) -> Command {
+        let size = format!(
+            "Bytes of every foreign access [default: as the trace says; where it does not, {}]",
+            assumed_sizes(imports)
+        );
+        command
+            .mut_arg("input", |argument| argument.value_parser(entry(imports)))
+            .mut_arg("access_size", |argument| argument.help(size))
+    }
+
+    /// The same, for the reader of such traces.
+    pub(crate) fn reading(&self) -> Reading {
         Reading {
-            form,
+            format: self.input,
             access_size: self.access_size,
             address_unit: self.address_unit,
             columns: self.columns.clone(),

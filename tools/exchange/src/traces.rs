@@ -1,0 +1,35 @@
+//! Traces in other simulators' formats, read and written.
+//!
+//! A format is a file in `formats`, which knows what one entry looks like, and a line in [`imports`], in [`exports`] or in
+//! both. Reading makes a [`Trace`], which replays into the same sinks as a trace of ours; writing is an [`Exporter`], itself
+//! such a sink. What a foreign trace does not have: searches, so nothing is per query, and regions: these are the 4 KiB pages
+//! it touches, at their addresses.
+
+mod entries;
+mod export;
+mod exporter;
+mod formats;
+mod import;
+mod open;
+mod pages;
+mod pieces;
+mod recognise;
+mod reference;
+mod registries;
+mod table;
+pub mod text;
+mod trace;
+mod unpack;
+
+pub use export::{Carried, Kinds, PieceWriter, TraceExport, Unwritten};
+pub use exporter::Exporter;
+pub use import::{AssumedSize, EntryParser, EntryShape, Example, ParserOfColumns, Recognition, TraceImport};
+pub use open::{Opened, Reading, References, open};
+pub use pieces::Piece;
+pub use reference::{EntryKind, Parsed, Reference};
+pub use registries::{exports, imports};
+pub use table::{assumed_sizes, table};
+pub use trace::Trace;
+
+#[cfg(test)]
+mod tests;

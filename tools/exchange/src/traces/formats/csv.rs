@@ -1,0 +1,167 @@
+//! Lines of addresses, with or without sizes and kinds, between commas, semicolons or tabs.
+//!
+//! A first line with a column `address` names the columns (`address`, `size`, `kind`; others are passed over). Without
+//! one they are these three, or those given. Numbers are decimal, or hexadecimal with `0x`.
+
+use crate::BadQuestion;
+use crate::traces::text::{number, quoted, size};
+use crate::traces::{
+    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, ParserOfColumns, Piece,
+    PieceWriter, Recognition, Reference, TraceExport, TraceImport, Unwritten,
+};
+use pm_formats::trace::AccessKind;
+use std::io::{self, Write};
+
+pm_registry::registered! {
+    /// Columns address, size, kind: by the names of the first line, or in this order
+    pub struct Csv = "csv";
+}
+
+/// Where the columns are.
+#[derive(Clone, Copy, Debug)]
+struct Columns {
+    address: usize,
+    size: Option<usize>,
+    kind: Option<usize>,
+}
+
+impl Columns {
+    /// Where nothing names them.
+    const PLAIN: Self = Self { address: 0, size: Some(1), kind: Some(2) };
+
+    fn named(names: &[String]) -> Option<Self> {
+        let find = |name: &str| names.iter().position(|known| known == name);
+        Some(Self { address: find("address")?, size: find("size"), kind: find("kind") })
+    }
+
+    /// As asked for.
+    fn asked(names: &[String]) -> Result<Self, BadQuestion> {
+        let known = |name: &String| ["address", "size", "kind", "_"].contains(&name.as_str());
+        let doubled = |name: &str| names.iter().filter(|other| *other == name).count() > 1;
+        if !names.iter().all(known) || ["address", "size", "kind"].into_iter().any(doubled) {
+            return Err(BadQuestion::new(
+                "--columns: columns are address, size and kind, once each, and _ for one to skip",
+            ));
+        }
+        Self::named(names).ok_or_else(|| BadQuestion::new("--columns: one of them must be address"))
+    }
+}
+
+/// Knows where the columns are, at the latest from the first line on.
+struct Parser {
+    columns: Option<Columns>,
+}
+
+impl EntryParser for Parser {
+    fn parse(&mut self, line: &[u8]) -> Parsed {
+        if line.trim_ascii().is_empty() {
+            return Ok(None);
+        }
+        let fields: Vec<Vec<u8>> = line.split(|byte| b",;\t".contains(byte)).map(unquoted).collect();
+        let columns = match self.columns {
+            Some(columns) => columns,
+            None => {
+                let lower = |field: &Vec<u8>| String::from_utf8_lossy(field).to_ascii_lowercase();
+                let names: Vec<String> = fields.iter().map(lower).collect();
+                if let Some(columns) = Columns::named(&names) {
+                    self.columns = Some(columns);
+                    return Ok(None);
+                }
+                if fields.len() > 3 {
+                    return Err("more than address, size and kind; name the columns with --columns".into());
+                }
+                Columns::PLAIN
+            }
+        };
+        let field = |column: usize| fields.get(column).filter(|field| !field.is_empty());
+        let address = field(columns.address).ok_or_else(|| format!("{} has no address", quoted(line)))?;
+        let address = number(address)?;
+        let len = columns.size.and_then(field).map(|field| size(number(field)?)).transpose()?;
+        let kind = columns.kind.and_then(field).map_or(Ok(EntryKind::READ), |field| kind(field))?;
+        self.columns = Some(columns);
+        Ok(Some(Reference { kind, address, len }))
+    }
+}
+
+fn unquoted(field: &[u8]) -> Vec<u8> {
+    let field = field.trim_ascii();
+    let inner = field.strip_prefix(b"\"").and_then(|field| field.strip_suffix(b"\""));
+    inner.unwrap_or(field).to_vec()
+}
+
+fn kind(field: &[u8]) -> Result<EntryKind, String> {
+    match &*field.to_ascii_lowercase() {
+        b"r" | b"read" | b"l" | b"ld" | b"load" => Ok(EntryKind::READ),
+        b"w" | b"write" | b"s" | b"st" | b"store" => Ok(EntryKind::WRITE),
+        b"m" | b"rmw" | b"modify" => Ok(EntryKind::MODIFY),
+        b"i" | b"instruction" => Ok(EntryKind::Instruction),
+        _ => Err(format!("kind {} is none of read, write, rmw, instruction", quoted(field))),
+    }
+}
+
+impl TraceImport for Csv {
+    fn shape(&self) -> EntryShape {
+        EntryShape::Line
+    }
+
+    fn assumed_size(&self) -> Option<AssumedSize> {
+        Some(AssumedSize::BYTE)
+    }
+
+    fn recognition(&self) -> Recognition {
+        // A line with a number is a trace already.
+        Recognition::FirstLineAtLast
+    }
+
+    fn parser(&self) -> Box<dyn EntryParser> {
+        Box::new(Parser { columns: None })
+    }
+
+    fn parser_of_columns(&self) -> Option<ParserOfColumns> {
+        Some(|names| Ok(Box::new(Parser { columns: Some(Columns::asked(names)?) })))
+    }
+
+    fn example(&self) -> Example {
+        Example {
+            input: b"17,4,w\n0x11;8;rmw\n18\t2\tLoad\n19,,\n64,4,i\n",
+            entries: &[
+                Reference { kind: EntryKind::WRITE, address: 17, len: Some(4) },
+                Reference { kind: EntryKind::MODIFY, address: 17, len: Some(8) },
+                Reference { kind: EntryKind::READ, address: 18, len: Some(2) },
+                Reference { kind: EntryKind::READ, address: 19, len: None },
+                Reference { kind: EntryKind::Instruction, address: 64, len: Some(4) },
+            ],
+        }
+    }
+}
+
+struct Writer;
+
+impl PieceWriter for Writer {
+    fn begin(&mut self, output: &mut dyn Write) -> io::Result<()> {
+        output.write_all(b"address,size,kind\n")
+    }
+
+    fn write(&mut self, piece: &Piece, output: &mut dyn Write) -> Result<(), Unwritten> {
+        let kind = match piece.kind {
+            AccessKind::Read => "read",
+            AccessKind::Write => "write",
+            AccessKind::ReadModifyWrite => "rmw",
+        };
+        Ok(writeln!(output, "{:#x},{},{kind}", piece.address, piece.len)?)
+    }
+}
+
+impl TraceExport for Csv {
+    fn is_text(&self) -> bool {
+        true
+    }
+
+    fn carried(&self) -> Carried {
+        Carried { sizes: true, kinds: Kinds::All }
+    }
+
+    fn writer(&self) -> io::Result<Box<dyn PieceWriter>> {
+        Ok(Box::new(Writer))
+    }
+}

@@ -1,0 +1,78 @@
+//! `dramsim3`: transactions for the simulator of memories of that name, such as `0x1000 READ 7`.
+
+use crate::traces::text::{number, quoted, words};
+use crate::traces::{
+    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
+    TraceExport, TraceImport, Unwritten,
+};
+use std::io::{self, Write};
+
+pm_registry::registered! {
+    /// DRAMsim3: address, READ or WRITE, cycle, such as 0x1000 READ 7
+    pub struct Dramsim3 = "dramsim3";
+}
+
+fn parse(line: &[u8]) -> Parsed {
+    let wrong = || format!("{} is not an address, READ or WRITE, and a cycle", quoted(line));
+    let [address, kind, cycle] = words(line).collect::<Vec<_>>()[..] else { return Err(wrong()) };
+    let kind = match kind {
+        b"READ" => EntryKind::READ,
+        b"WRITE" => EntryKind::WRITE,
+        _ => return Err(wrong()),
+    };
+    number(cycle)?;
+    Ok(Some(Reference { kind, address: number(address)?, len: None }))
+}
+
+impl TraceImport for Dramsim3 {
+    fn shape(&self) -> EntryShape {
+        EntryShape::Line
+    }
+
+    fn assumed_size(&self) -> Option<AssumedSize> {
+        // What a memory transfers at once.
+        Some(AssumedSize::bytes(64))
+    }
+
+    fn parser(&self) -> Box<dyn EntryParser> {
+        Box::new(parse)
+    }
+
+    fn example(&self) -> Example {
+        Example {
+            input: b"0x1000 READ 0\n0x40 WRITE 17\n",
+            entries: &[
+                Reference { kind: EntryKind::READ, address: 4096, len: None },
+                Reference { kind: EntryKind::WRITE, address: 64, len: None },
+            ],
+        }
+    }
+}
+
+/// There is no clock in a trace of ours: the cycle is the number of the transaction.
+struct Writer {
+    transactions: u64,
+}
+
+impl PieceWriter for Writer {
+    fn write(&mut self, piece: &Piece, output: &mut dyn Write) -> Result<(), Unwritten> {
+        let kind = if piece.is_write() { "WRITE" } else { "READ" };
+        writeln!(output, "{:#x} {kind} {}", piece.address, self.transactions)?;
+        self.transactions += 1;
+        Ok(())
+    }
+}
+
+impl TraceExport for Dramsim3 {
+    fn is_text(&self) -> bool {
+        true
+    }
+
+    fn carried(&self) -> Carried {
+        Carried { sizes: false, kinds: Kinds::ReadsAndWrites }
+    }
+
+    fn writer(&self) -> io::Result<Box<dyn PieceWriter>> {
+        Ok(Box::new(Writer { transactions: 0 }))
+    }
+}

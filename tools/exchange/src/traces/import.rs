@@ -1,0 +1,112 @@
+//! What a format of traces is to those who read it.
+
+use super::{Parsed, Reference};
+use crate::BadQuestion;
+use pm_registry::Registered;
+
+/// A format of traces that is read: an entry of [`imports`](super::imports).
+pub trait TraceImport: Registered + Sync {
+    /// What its entries are.
+    fn shape(&self) -> EntryShape;
+
+    /// Bytes of an access whose entry does not say, and a remark for the table of formats; `None` if every entry says.
+    fn assumed_size(&self) -> Option<AssumedSize>;
+
+    /// How an input is known to be of this format.
+    fn recognition(&self) -> Recognition {
+        match self.shape() {
+            EntryShape::Line => Recognition::FirstLine,
+            EntryShape::Record { .. } => Recognition::ByName,
+        }
+    }
+
+    /// What understands its entries, one after another from the first of an input.
+    fn parser(&self) -> Box<dyn EntryParser>;
+
+    /// The same where columns are named that the input may not name, if the format has columns.
+    fn parser_of_columns(&self) -> Option<ParserOfColumns> {
+        None
+    }
+
+    /// An input and what it says, by which [`trial`](crate::trial) tries the format: two entries or more, the first one an
+    /// access to data.
+    fn example(&self) -> Example;
+}
+
+/// Makes a parser of entries with these columns, or says why they make no sense.
+pub type ParserOfColumns = fn(&[String]) -> Result<Box<dyn EntryParser>, BadQuestion>;
+
+/// Understands the entries of one input, in their order.
+pub trait EntryParser {
+    /// The entry in these bytes: a line without its end, or a record.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    fn parse(&mut self, entry: &[u8]) -> Parsed;
+}
+
+impl<F: FnMut(&[u8]) -> Parsed> EntryParser for F {
+    fn parse(&mut self, entry: &[u8]) -> Parsed {
+        self(entry)
+    }
+}
+
+/// What entries are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryShape {
+    /// A line of text.
+    Line,
+    /// A record of a fixed length.
+    Record {
+        /// Its length.
+        bytes: usize,
+    },
+}
+
+impl EntryShape {
+    /// Is it text?
+    #[must_use]
+    pub const fn is_text(self) -> bool {
+        matches!(self, Self::Line)
+    }
+}
+
+/// How an input is known to be of a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recognition {
+    /// It has to be named: any bytes might be meant, those of a damaged stream of ours too.
+    ByName,
+    /// By its first line that is no comment, which is one of no other format.
+    FirstLine,
+    /// The same, where the first line of another format might be one of this: after all others.
+    FirstLineAtLast,
+}
+
+/// Bytes of an access whose entry does not say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AssumedSize {
+    /// So many.
+    pub bytes: u32,
+    /// The address is that of a unit of so many bytes, a power of two, wherever in it the entry points.
+    pub aligned: bool,
+}
+
+impl AssumedSize {
+    /// The byte at the address.
+    pub const BYTE: Self = Self::bytes(1);
+
+    /// So many bytes from the address on.
+    #[must_use]
+    pub const fn bytes(bytes: u32) -> Self {
+        Self { bytes, aligned: false }
+    }
+}
+
+/// An input and what it says.
+#[derive(Clone, Copy, Debug)]
+pub struct Example {
+    /// The input, whole.
+    pub input: &'static [u8],
+    /// Its entries without comments.
+    pub entries: &'static [Reference],
+}

@@ -1,0 +1,23 @@
+//! The formats of traces there are: a line each.
+
+use super::formats::{Csv, Din, Dinb, Dramsim3, Lackey, OracleGeneral, Ramulator2, Raw32, Raw64, Xdin};
+use super::{TraceExport, TraceImport};
+use pm_registry::Registry;
+
+/// Formats that are read.
+#[must_use]
+pub fn imports() -> Registry<dyn TraceImport> {
+    Registry::new(
+        "format of traces that is read",
+        &[&Raw32, &Raw64, &Din, &Xdin, &Dinb, &Lackey, &OracleGeneral, &Csv, &Dramsim3, &Ramulator2],
+    )
+}
+
+/// Formats that are written.
+#[must_use]
+pub fn exports() -> Registry<dyn TraceExport> {
+    Registry::new(
+        "format of traces that is written",
+        &[&Raw32, &Raw64, &Din, &Xdin, &Dinb, &Lackey, &OracleGeneral, &Csv, &Dramsim3, &Ramulator2],
+    )
+}

@@ -1,0 +1,61 @@
+//! Pictures in files, whose format is known by their names.
+
+use super::usage::usage;
+use super::{named, software};
+use anyhow::Context as _;
+use pm_pictures::{Description, Picture, PictureFormat, Preview};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// The format that the ending of a file's name asks for.
+///
+/// # Errors
+/// If it is neither `.exr` nor `.png`.
+pub fn picture_format(path: &Path) -> anyhow::Result<PictureFormat> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let format = PictureFormat::of_ending(&ending);
+    format.ok_or_else(|| usage(format!("{}: an image's name ends in .exr or .png", path.display())))
+}
+
+/// Writes a picture in the format that its name asks for; into EXR go the version of our programs, and attributes.
+///
+/// # Errors
+/// If it asks for none, or the picture cannot be written.
+pub fn write_picture(
+    picture: &Picture,
+    path: &Path,
+    output: &mut impl Write,
+    attributes: &[(&str, String)],
+) -> anyhow::Result<()> {
+    let bytes = picture.encode(picture_format(path)?, &software(), attributes)?;
+    Ok(output.write_all(&bytes)?)
+}
+
+/// Reads a picture in EXR.
+///
+/// # Errors
+/// If there is none.
+pub fn read_picture(path: &Path) -> anyhow::Result<Picture> {
+    Picture::decode_exr(&bytes(path)?).with_context(|| named(path))
+}
+
+/// Reads what an EXR file says of itself.
+///
+/// # Errors
+/// If there is none.
+pub fn describe_picture(path: &Path) -> anyhow::Result<Description> {
+    Description::of_exr(&bytes(path)?).with_context(|| named(path))
+}
+
+/// Reads a preview in PNG, or makes one of a picture in EXR, brightened by so many stops.
+///
+/// # Errors
+/// If there is no such picture.
+pub fn read_preview(path: &Path, stops: f32) -> anyhow::Result<Preview> {
+    Preview::decode(picture_format(path)?, &bytes(path)?, stops).with_context(|| named(path))
+}
+
+fn bytes(path: &Path) -> anyhow::Result<Vec<u8>> {
+    fs::read(path).with_context(|| named(path))
+}
