@@ -16,8 +16,8 @@ Scanline fetches {{ scan / hilbert | .2f }} times as much, {{ scan | , }} lines;
 """
 
 [numbers]
-scan = "sizes.csv[order=scanline, cache_bytes=1024].fetches"
-hilbert = 'sizes.csv[order="scanline, hilbert", cache_bytes=1024].fetches'
+scan = "row('sizes.csv', order='scanline', cache_bytes=1024).fetches"
+hilbert = "row('sizes.csv', order='scanline, hilbert', cache_bytes=1024).fetches"
 
 [[section]]
 heading = "Sizes"
@@ -33,7 +33,7 @@ by = ["order"]
 
 [[section.paragraph]]
 heading = "Between"
-text = "A sampled number: {{ sampled.csv[order=scanline].fetches | .1f }}."
+text = "A sampled number: {{ row('sampled.csv', order='scanline').fetches | .1f }}."
 
 [[section.chart]]
 tables = ["sampled.csv"]
@@ -297,8 +297,8 @@ fn what_is_not_there_is_said_with_its_line_and_nothing_is_written() {
     let folder = folder();
     for (from, to, code, hint) in [
         (
-            "cache_bytes=1024].fetches\"",
-            "cache_bytes=7].fetches\"",
+            "cache_bytes=1024).fetches\"",
+            "cache_bytes=7).fetches\"",
             2,
             "page.toml, line 10: in {{ scan / hilbert | .2f }}",
         ),

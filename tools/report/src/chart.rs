@@ -1,6 +1,6 @@
 //! Charts: a table in, an SVG picture out.
 //!
-//! A [`Plot`] is series of points over two axes. [`read`](Plot::read) makes one from CSV tables and a [`Selection`] of
+//! A [`Plot`] is series of points over two axes. [`read`](Plot::read) makes one from tables and a [`Selection`] of
 //! their columns, [`svg`](Plot::svg) draws it. What a scale is and where its ticks are is [`Scale`]'s; the drawing of
 //! lines and letters is a library's.
 
@@ -8,12 +8,15 @@ mod axis;
 mod colours;
 mod draw;
 mod frontier;
-mod select;
+mod read;
+mod selection;
+mod svg;
 
 pub use axis::{Axis, Scale};
 pub use colours::dark_style;
-pub use draw::Look;
-pub use select::{Selection, TableError};
+pub use frontier::unbeaten;
+pub use selection::Selection;
+pub use svg::Look;
 
 /// A point of a series, in the units of the axes; on an axis of words, the number of the word.
 #[derive(Clone, Copy, Debug, PartialEq)]

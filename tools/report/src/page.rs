@@ -9,13 +9,13 @@
 //! command = "make run"     # makes the tables, where a section or block names no other
 //! intro = "Scanline fetches {{ scan / hilbert | ,.0f }} times as much."
 //!
-//! [numbers]                # short names for numbers: FILE[COLUMN=VALUE, ...].COLUMN, of the one row that fits
-//! scan = "out/all.csv[order=scanline].fetches_per_query"
-//! hilbert = 'out/all.csv[order="scanline, hilbert"].fetches_per_query'
+//! [numbers]                # short names for numbers: row(FILE, COLUMN=VALUE, ...).COLUMN, of the one row that fits
+//! scan = "row('out/all.csv', order='scanline').fetches_per_query"
+//! hilbert = "row('out/all.csv', order='scanline, hilbert').fetches_per_query"
 //!
 //! [[section]]
 //! heading = "Caches"       # also: id, command
-//! text = "Markdown, with {{ out/all.csv[order=scanline].fetches | , }} and links such as [this](#caches)."
+//! text = "Markdown, with {{ row('out/all.csv', order='scanline').fetches | , }} and links such as [this](#caches)."
 //!
 //! [[section.chart]]        # all but tables, x and y may be left out
 //! title = "Fetches and size"
@@ -53,60 +53,25 @@
 //! text = "Markdown"
 //! ```
 //!
-//! `{{ ... }}` knows numbers, names, places in files, and `+ - * /` between blanks; behind `|` stands a [`Format`] as
+//! What stands in `{{ ... }}` is an [`expression`](crate::expression); behind `|` stands a [`NumberFormat`] as
 //! Python has them: `.2f` decimals, `.3g` significant digits, `.1e`, `.1%`, `,` groups of thousands, `B` bytes. A single
 //! place without a format is written as the file has it. In a text, a table and the data of a chart a number goes with the
 //! column `found` (full, sampled, thinned) of its row, and below charts and tables stand their data, the command that made
 //! them, and the `history` of their rows, where the tables have these columns.
 
 mod below;
+mod blocks;
 mod chart;
 mod description;
-mod expression;
-mod format;
 mod html;
+mod ids;
 mod markdown;
-mod sheet;
+mod number_format;
+mod picture;
 mod table;
-mod write;
+mod writer;
+mod written;
 
-pub use description::{
-    Block, ChartBlock, Description, Join, Paragraph, PictureBlock, Section, Shown, ShownColumn, TableBlock, Values,
-};
-pub use format::Format;
-pub use sheet::Sheets;
-
-use thiserror::Error;
-
-/// Why no page comes of a description.
-#[derive(Debug, Error)]
-#[error("{}{what}", .line.map_or(String::new(), |line| format!("line {line}: ")))]
-pub struct PageError {
-    /// The line of the description, the first being 1.
-    line: Option<usize>,
-    what: String,
-    asked_wrongly: bool,
-}
-
-impl PageError {
-    /// The description asks for what cannot be.
-    fn asked(what: impl Into<String>) -> Self {
-        Self { line: None, what: what.into(), asked_wrongly: true }
-    }
-
-    /// A file cannot be read, or does not hold what it should.
-    fn read(what: impl Into<String>) -> Self {
-        Self { asked_wrongly: false, ..Self::asked(what) }
-    }
-
-    /// The same, at this line of the description unless its place is known better.
-    fn at_line(self, line: Option<usize>) -> Self {
-        Self { line: self.line.or(line), ..self }
-    }
-
-    /// Is it the description that is wrong, and not a file that it names?
-    #[must_use]
-    pub const fn asked_wrongly(&self) -> bool {
-        self.asked_wrongly
-    }
-}
+pub use blocks::{ChartBlock, Join, Paragraph, PictureBlock, Shown, ShownColumn, TableBlock};
+pub use description::{Block, Description, Section};
+pub use number_format::NumberFormat;

@@ -1,12 +1,12 @@
 //! Charts of a page: drawn wide and narrow, with their legend and what stands below.
 
+use super::ChartBlock;
 use super::below::{self, FOUND};
-use super::html::{escaped, id_attribute};
-use super::sheet::{Sheet, number};
-use super::{ChartBlock, PageError, Sheets};
-use crate::chart::{Look, Plot, Selection, TableError};
-use std::fmt::Write as _;
-use std::path::Path;
+use super::html::safe;
+use crate::ReportError;
+use crate::chart::{Look, Plot, Selection};
+use crate::sheet::{Sheet, Sheets, number};
+use minijinja::{Value, context};
 
 /// Width and height of the drawing where there is room, in pixels.
 const WIDE: (u32, u32) = (860, 440);
@@ -15,50 +15,38 @@ const NARROW: (u32, u32) = (380, 340);
 /// The column that tells the tables apart where there are several.
 const TABLE: &str = "table";
 
-/// The chart in HTML; `title` and `text` are HTML already, `plain_title` is the title as text.
+/// What the template of a chart needs; `title` is text, `text` HTML.
 ///
 /// # Errors
 /// If a file, column or row is not there, or cannot be drawn.
-pub(super) fn html(
+pub(super) fn block(
     block: &ChartBlock,
-    (plain_title, title, text): (&str, &str, &str),
+    (title, text): (String, Value),
     command: Option<&str>,
-    sheets: &mut Sheets,
-) -> Result<String, PageError> {
+    sheets: &Sheets,
+) -> Result<Value, ReportError> {
     let data = data(block, sheets)?;
     let plot = plot(block, sheets)?;
-    let look = |size| Look {
-        title: plain_title.to_owned(),
-        size,
-        lines: !block.points,
-        frontier: block.frontier,
-        legend: false,
-    };
-    let mut html = format!("<figure class=\"chart\"{}>\n", id_attribute(block.id.as_deref()));
-    if !title.is_empty() {
-        let _ = writeln!(html, "<figcaption>{title}</figcaption>");
-    }
-    html += text;
-    for (size, class) in [(WIDE, "wide"), (NARROW, "narrow")] {
-        html += plot.svg_in_page(&look(size), class).trim_end();
-        html.push('\n');
-    }
+    let look =
+        |size| Look { title: title.clone(), size, lines: !block.points, frontier: block.frontier, legend: false };
+    let drawings = [(WIDE, "wide"), (NARROW, "narrow")]
+        .map(|(size, class)| safe(plot.svg_in_page(&look(size), class).trim_end().to_owned()));
     let keys = plot.keys(&look(WIDE));
-    if keys.len() > 1 || !block.by.is_empty() {
-        html += "<ul class=\"legend\">\n";
-        for (name, key) in keys {
-            let _ = writeln!(html, "<li>{}{}</li>", key.replace('\n', ""), escaped(name));
-        }
-        html += "</ul>\n";
-    }
-    html += &below::made_by(command);
-    let shown = columns(block, &data)?;
-    let file = Path::new(&block.tables[0]).file_name().map_or("data.csv".into(), |name| name.to_string_lossy());
-    html += &below::data(&data, &shown, &file);
-    Ok(html + "</figure>\n")
+    let keys = if keys.len() > 1 || !block.by.is_empty() { keys } else { vec![] };
+    let legend = keys.into_iter().map(|(name, key)| context! { name, key => safe(key.replace('\n', "")) });
+    Ok(context! {
+        template => "chart.html",
+        id => block.id.as_deref(),
+        title,
+        text,
+        drawings => drawings.to_vec(),
+        legend => legend.collect::<Vec<_>>(),
+        command,
+        data => below::data(&data, &columns(block, &data)?, &block.tables[0]),
+    })
 }
 
-fn plot(block: &ChartBlock, sheets: &mut Sheets) -> Result<Plot, PageError> {
+fn plot(block: &ChartBlock, sheets: &Sheets) -> Result<Plot, ReportError> {
     let only = block.only.iter().flat_map(|(column, values)| {
         values.all().iter().map(|value| (column.clone(), value.clone())).collect::<Vec<_>>()
     });
@@ -71,24 +59,15 @@ fn plot(block: &ChartBlock, sheets: &mut Sheets) -> Result<Plot, PageError> {
         x_scale: block.x_scale,
         y_scale: block.y_scale,
     };
-    let mut open = |names: &[String]| {
-        names.iter().map(|name| Ok((name.clone(), sheets.get(name)?))).collect::<Result<Vec<_>, PageError>>()
-    };
-    let (tables, references) = (open(&block.tables)?, open(&block.reference)?);
-    let texts = |tables: &[(String, std::rc::Rc<Sheet>)]| {
-        tables.iter().map(|(name, sheet)| (name.clone(), std::io::Cursor::new(sheet.text.clone()))).collect()
-    };
-    let mut plot = Plot::read(&selection, texts(&tables), texts(&references)).map_err(|error| match error {
-        TableError::Csv { .. } | TableError::Empty(_) | TableError::Number { .. } => PageError::read(error.to_string()),
-        _ => PageError::asked(error.to_string()),
-    })?;
+    let open = |names: &[String]| names.iter().map(|name| sheets.get(name)).collect::<Result<Vec<_>, ReportError>>();
+    let mut plot = Plot::read(&selection, &open(&block.tables)?, &open(&block.reference)?)?;
     plot.x.label = block.x_label.clone().unwrap_or(plot.x.label);
     plot.y.label = block.y_label.clone().unwrap_or(plot.y.label);
     Ok(plot)
 }
 
 /// The rows that are drawn, with all their columns.
-fn data(block: &ChartBlock, sheets: &mut Sheets) -> Result<Sheet, PageError> {
+fn data(block: &ChartBlock, sheets: &Sheets) -> Result<Sheet, ReportError> {
     let several = block.tables.len() + block.reference.len() > 1;
     let mut all: Option<Sheet> = None;
     for (number_of_table, name) in block.tables.iter().chain(&block.reference).enumerate() {
@@ -112,14 +91,14 @@ fn data(block: &ChartBlock, sheets: &mut Sheets) -> Result<Sheet, PageError> {
             all.keep(&block.only)?;
         }
     }
-    let Some(mut all) = all else { return Err(PageError::asked("a chart has at least one of `tables`")) };
+    let Some(mut all) = all else { return Err(ReportError::asked("a chart has at least one of `tables`")) };
     let (x, y) = (all.column(&block.x)?, all.column(&block.y)?);
-    all.rows.retain(|row| !row[x].is_empty() && number(&row[y]).is_some());
+    all.retain(|row| !row[x].is_empty() && number(&row[y]).is_some());
     Ok(all)
 }
 
 /// The columns that the chart is made of, the table first where there are several.
-fn columns(block: &ChartBlock, data: &Sheet) -> Result<Vec<usize>, PageError> {
+fn columns(block: &ChartBlock, data: &Sheet) -> Result<Vec<usize>, ReportError> {
     let mut columns = vec![];
     let several = block.tables.len() + block.reference.len() > 1;
     for name in [TABLE].into_iter().filter(|_| several).chain(block.columns()) {

@@ -1,10 +1,61 @@
-//! Pieces of HTML.
+//! The templates of a page, and pieces of HTML.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use minijinja::syntax::SyntaxConfig;
+use minijinja::{AutoEscape, Environment, Output, State, UndefinedBehavior, Value};
+use std::sync::OnceLock;
 
-/// Text as HTML has it, in elements and in attributes in double quotes.
-pub(super) fn escaped(text: &str) -> String {
+/// A file of this folder each; what they are given is escaped unless it is HTML already.
+const TEMPLATES: [(&str, &str); 9] = [
+    ("page.html", include_str!("templates/page.html")),
+    ("chart.html", include_str!("templates/chart.html")),
+    ("table.html", include_str!("templates/table.html")),
+    ("picture.html", include_str!("templates/picture.html")),
+    ("paragraph.html", include_str!("templates/paragraph.html")),
+    ("below.html", include_str!("templates/below.html")),
+    ("made.html", include_str!("templates/made.html")),
+    ("number.html", include_str!("templates/number.html")),
+    ("code.html", include_str!("templates/code.html")),
+];
+
+/// What a template makes of these values.
+///
+/// # Panics
+/// Never: the templates are ours, and the tests render all of them.
+pub(super) fn render(template: &str, values: Value) -> String {
+    static ENVIRONMENT: OnceLock<Environment<'static>> = OnceLock::new();
+    let environment = ENVIRONMENT.get_or_init(|| {
+        let mut environment = Environment::new();
+        let mut syntax = SyntaxConfig::builder();
+        environment.set_syntax(
+            syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true).build().expect("it is valid"),
+        );
+        environment.set_undefined_behavior(UndefinedBehavior::Strict);
+        environment.set_auto_escape_callback(|_| AutoEscape::Html);
+        environment.set_formatter(escape);
+        for (name, text) in TEMPLATES {
+            environment.add_template(name, text).expect("the templates are valid");
+        }
+        environment
+    });
+    let rendered = environment.get_template(template).and_then(|template| template.render(values));
+    rendered.unwrap_or_else(|error| panic!("{template}: {error:#}"))
+}
+
+/// HTML that a template is not to escape.
+pub(super) fn safe(html: String) -> Value {
+    Value::from_safe_string(html)
+}
+
+/// Writes a value as HTML has it, in elements and in attributes in double quotes.
+fn escape(out: &mut Output<'_>, _: &mut State<'_, '_>, value: &Value) -> Result<(), minijinja::Error> {
+    let text = value.to_string();
+    let text = if value.is_safe() { text } else { escaped(&text) };
+    Ok(out.write_str(&text)?)
+}
+
+fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -20,28 +71,9 @@ pub(super) fn escaped(text: &str) -> String {
     safe
 }
 
-/// An attribute ` id="..."`, if there is an id.
-pub(super) fn id_attribute(id: Option<&str>) -> String {
-    id.map_or(String::new(), |id| format!(" id=\"{}\"", escaped(id)))
-}
-
 /// Bytes as an address that holds them.
 pub(super) fn data_uri(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", STANDARD.encode(bytes))
-}
-
-/// A name for links, made of the words of a heading.
-pub(super) fn slug(heading: &str) -> String {
-    let words = heading.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let slug = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
-    if slug.is_empty() { "section".to_owned() } else { slug }
-}
-
-/// Width and height of a PNG file.
-pub(super) fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
-    let number = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
-    (bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.get(12..16)? == b"IHDR").then_some(())?;
-    Some((number(16)?, number(20)?))
 }
 
 #[cfg(test)]
@@ -51,12 +83,6 @@ mod tests {
     #[test]
     fn nothing_in_a_text_is_markup() {
         assert_eq!(escaped("a < b & \"c\" > d\u{7}"), "a &lt; b &amp; &quot;c&quot; &gt; d\u{fffd}");
-    }
-
-    #[test]
-    fn headings_have_names() {
-        assert_eq!(slug("Where methods fail: LRU, MIN"), "where-methods-fail-lru-min");
-        assert_eq!(slug("?"), "section");
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Texts: Markdown into HTML, with the numbers that they name.
 
-use super::PageError;
-use super::expression::Written;
-use super::html::escaped;
+use super::html::{render, safe};
+use super::written::Written;
+use crate::ReportError;
+use minijinja::{Value, context};
 use pulldown_cmark::{CowStr, Event, HeadingLevel, LinkType, Options, Parser, Tag, TagEnd};
 
 /// Around the number of an expression, while Markdown is read: letters that no text has (Unicode: private use).
@@ -24,8 +25,8 @@ pub(super) struct Text {
 /// If an expression is wrong, or a picture is named: pictures are blocks of their own.
 pub(super) fn html(
     markdown: &str,
-    evaluate: &mut dyn FnMut(&str) -> Result<Written, PageError>,
-) -> Result<Text, PageError> {
+    evaluate: &mut dyn FnMut(&str) -> Result<Written, ReportError>,
+) -> Result<Text, ReportError> {
     let (marked, numbers) = take_out(markdown, evaluate)?;
     let mut events = vec![];
     let mut links = vec![];
@@ -36,8 +37,7 @@ pub(super) fn html(
             Event::Html(text) | Event::InlineHtml(text) => put_in(&text, &numbers, &mut events),
             Event::Text(text) => put_in(&text, &numbers, &mut events),
             Event::Code(text) => {
-                let text = spread(&text, &numbers);
-                events.push(Event::InlineHtml(format!("<code>{text}</code>").into()));
+                events.push(Event::InlineHtml(code(&text, &numbers).into()));
             }
             Event::Start(Tag::Heading { level, .. }) => {
                 let level = lower(level);
@@ -48,17 +48,18 @@ pub(super) fn html(
                 Some(place) => {
                     links.push(place.to_owned());
                     outside.push(None);
-                    events.push(Event::InlineHtml(format!("<a href=\"{}\">", escaped(&dest_url)).into()));
+                    let (title, id) = ("".into(), "".into());
+                    events.push(Event::Start(Tag::Link { link_type: LinkType::Inline, dest_url, title, id }));
                 }
                 None => outside.push(Some(if link_type == LinkType::Autolink { "".into() } else { dest_url })),
             },
             Event::End(TagEnd::Link) => match outside.pop().flatten() {
-                None => events.push(Event::InlineHtml("</a>".into())),
+                None => events.push(Event::End(TagEnd::Link)),
                 Some(address) if address.is_empty() => {}
                 Some(address) => events.push(Event::Text(format!(" ({address})").into())),
             },
             Event::Start(Tag::Image { dest_url, .. }) => {
-                return Err(PageError::asked(format!(
+                return Err(ReportError::asked(format!(
                     "{dest_url}: pictures are blocks of their own, [[section.picture]]"
                 )));
             }
@@ -76,8 +77,8 @@ pub(super) fn html(
 /// If an expression is wrong.
 pub(super) fn plain(
     text: &str,
-    evaluate: &mut dyn FnMut(&str) -> Result<Written, PageError>,
-) -> Result<String, PageError> {
+    evaluate: &mut dyn FnMut(&str) -> Result<Written, ReportError>,
+) -> Result<String, ReportError> {
     let (marked, numbers) = take_out(text, evaluate)?;
     let mut plain = String::new();
     for piece in pieces(&marked, &numbers) {
@@ -106,15 +107,15 @@ fn lower(level: HeadingLevel) -> HeadingLevel {
 /// Evaluates the expressions of a text, and leaves marks with their numbers in their places.
 fn take_out(
     text: &str,
-    evaluate: &mut dyn FnMut(&str) -> Result<Written, PageError>,
-) -> Result<(String, Vec<Written>), PageError> {
+    evaluate: &mut dyn FnMut(&str) -> Result<Written, ReportError>,
+) -> Result<(String, Vec<Written>), ReportError> {
     let mut marked = String::with_capacity(text.len());
     let mut numbers = vec![];
     let mut rest = text;
     while let Some((before, behind)) = rest.split_once("{{") {
         let (expression, after) = behind.split_once("}}").ok_or_else(|| {
             let start: String = behind.chars().take(40).collect();
-            PageError::asked(format!("`{{{{{start}` is not closed by `}}}}`"))
+            ReportError::asked(format!("`{{{{{start}` is not closed by `}}}}`"))
         })?;
         marked.extend(before.chars().filter(|&c| c != BEFORE && c != BEHIND));
         marked += &format!("{BEFORE}{}{BEHIND}", numbers.len());
@@ -155,21 +156,19 @@ fn put_in(text: &str, numbers: &[Written], events: &mut Vec<Event<'_>>) {
     }
 }
 
-fn spread(text: &str, numbers: &[Written]) -> String {
-    let html = pieces(text, numbers).into_iter().map(|piece| match piece {
-        Piece::Text(text) => escaped(text),
-        Piece::Number(written) => shown(written),
+fn code(text: &str, numbers: &[Written]) -> String {
+    let pieces = pieces(text, numbers).into_iter().map(|piece| match piece {
+        Piece::Text(text) => Value::from(text),
+        Piece::Number(written) => safe(shown(written)),
     });
-    html.collect()
+    render("code.html", context! { pieces => pieces.collect::<Vec<_>>() })
 }
 
 /// A number as it stands in the page: where it is from, and how it was found if not in full.
-pub(super) fn shown(written: &Written) -> String {
-    let found = match &written.found {
-        Some(found) if found != "full" => format!("<span class=\"found\"> ({})</span>", escaped(found)),
-        _ => String::new(),
-    };
-    format!("<span class=\"number\" title=\"{}\">{}</span>{found}", escaped(&written.source), escaped(&written.text))
+fn shown(written: &Written) -> String {
+    let Written { text, source, found } = written;
+    let found = found.as_deref().filter(|found| *found != "full");
+    render("number.html", context! { text => &**text, source => &**source, found })
 }
 
 #[cfg(test)]
@@ -208,7 +207,7 @@ mod tests {
     #[test]
     fn what_cannot_be_is_refused() {
         let refused = |text: &str| {
-            let mut number = |_: &str| Err(PageError::asked("no such number"));
+            let mut number = |_: &str| Err(ReportError::asked("no such number"));
             html(text, &mut number).err().expect("refused").to_string()
         };
         assert_eq!(refused("a {{ b"), "`{{ b` is not closed by `}}`");

@@ -1,29 +1,25 @@
 //! Comma-separated values as RFC 4180 quotes them, with `\n` for a line end.
 
-use std::{
-    borrow::Cow,
-    io::{self, Write},
-};
-
 use super::{Table, Value};
+use std::borrow::Cow;
+use std::io::{self, Write};
 
 /// Writes the names of the columns, then a line for each row.
 pub(super) fn write(table: &Table, out: &mut dyn Write) -> io::Result<()> {
-    line(out, table.columns.iter().map(|c| quote(&c.name)))?;
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(table.columns.iter().map(|column| &column.name)).map_err(own)?;
     for row in &table.rows {
-        line(out, row.iter().map(field))?;
+        writer.write_record(row.iter().map(|value| field(value).into_owned())).map_err(own)?;
     }
-    Ok(())
+    writer.flush()
 }
 
-fn line<'a>(out: &mut dyn Write, fields: impl Iterator<Item = Cow<'a, str>>) -> io::Result<()> {
-    for (i, field) in fields.enumerate() {
-        if i > 0 {
-            out.write_all(b",")?;
-        }
-        out.write_all(field.as_bytes())?;
+/// What the output said, not wrapped: whoever wrote it may want to know its kind.
+fn own(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
     }
-    out.write_all(b"\n")
 }
 
 fn field(value: &Value) -> Cow<'_, str> {
@@ -33,21 +29,13 @@ fn field(value: &Value) -> Cow<'_, str> {
         // The shortest digits that read back as the same number.
         Value::Float(x, _) if x.is_finite() => format!("{x:?}").into(),
         Value::Float(..) => "".into(),
-        Value::Text(text) => quote(text),
+        Value::Text(text) => text.into(),
     }
-}
-
-/// RFC 4180, section 2, rules 5 to 7.
-fn quote(text: &str) -> Cow<'_, str> {
-    if text.contains(['"', ',', '\n', '\r']) {
-        return format!("\"{}\"", text.replace('"', "\"\"")).into();
-    }
-    text.into()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Column, Format};
+    use super::super::{Column, TableFormat};
     use super::*;
 
     #[test]
@@ -57,7 +45,7 @@ mod tests {
         table.push(vec![Value::Text("plain".into()), Value::Int(0), Value::Float(f64::NAN, 3)]);
         table.push(vec![Value::Text("two\nlines".into()), Value::Int(1), Value::Float(2e-9, 3)]);
         let mut out = Vec::new();
-        table.write(Format::Csv, &mut out).unwrap();
+        table.write(TableFormat::Csv, &mut out).unwrap();
         let expected = "\
 cache,n,\"a \"\"b\"\"\"
 \"128K,full,128,lru\",18446744073709551615,0.3333333333333333

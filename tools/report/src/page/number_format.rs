@@ -7,7 +7,7 @@ use std::str::FromStr;
 /// significant digits (and no exponent for numbers of everyday size), `e` with an exponent, `%` as per cent with decimals,
 /// `B` as bytes (`128K`, powers of 1024).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Format {
+pub struct NumberFormat {
     grouped: bool,
     digits: Option<usize>,
     kind: Kind,
@@ -27,7 +27,7 @@ enum Kind {
 /// More digits than a number has.
 const MOST_DIGITS: usize = 17;
 
-impl FromStr for Format {
+impl FromStr for NumberFormat {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -57,7 +57,7 @@ impl FromStr for Format {
     }
 }
 
-impl Format {
+impl NumberFormat {
     /// Writes a number.
     #[must_use]
     pub fn write(&self, value: f64) -> String {
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     fn write(format: &str, value: f64) -> String {
-        format.parse::<Format>().unwrap_or_else(|error| panic!("{error}")).write(value)
+        format.parse::<NumberFormat>().unwrap_or_else(|error| panic!("{error}")).write(value)
     }
 
     #[test]
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn what_is_no_format_is_refused() {
         for text in ["f2", ".f", ".", ".99f", ".0g", "x", ".1", ",B", "d"] {
-            assert!(text.parse::<Format>().is_err(), "{text}");
+            assert!(text.parse::<NumberFormat>().is_err(), "{text}");
         }
     }
 }

@@ -4,7 +4,10 @@ use std::io::{self, Write};
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{Column, JSON_SCHEMA, Table, Value};
+use super::{Column, Table, Value};
+
+/// Version of the JSON form; goes up when a reader of the old form would misread the new one.
+pub const JSON_SCHEMA: u32 = 1;
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -45,7 +48,7 @@ pub(super) fn write(table: &Table, out: &mut dyn Write) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Format;
+    use super::super::TableFormat;
     use super::*;
 
     #[test]
@@ -54,7 +57,7 @@ mod tests {
         table.push(vec![Value::Text("say \"hi\"\n".into()), Value::Int(u64::MAX), Value::Float(0.1, 2)]);
         table.push(vec![Value::Text(String::new()), Value::Int(0), Value::Float(f64::INFINITY, 2)]);
         let mut out = Vec::new();
-        table.write(Format::Json, &mut out).unwrap();
+        table.write(TableFormat::Json, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         let read: serde_json::Value = serde_json::from_str(&text).unwrap();
         let expected = serde_json::json!({
@@ -78,7 +81,7 @@ mod tests {
                 Ok(())
             }
         }
-        for format in [Format::Table, Format::Csv, Format::Json] {
+        for format in [TableFormat::Table, TableFormat::Csv, TableFormat::Json] {
             let error = Table::new(vec![Column::text("a")]).write(format, &mut Full).unwrap_err();
             assert_eq!(error.kind(), io::ErrorKind::StorageFull);
         }

@@ -1,0 +1,45 @@
+//! `pm-chart`: draws charts of tables, and puts charts, tables, pictures and text on a page.
+
+mod args;
+mod drawing;
+mod page;
+
+pub use args::Args;
+
+use crate::cli::{Typed, named, open_bytes, usage};
+use anyhow::{Context as _, anyhow};
+use pm_report::ReportError;
+use std::io::{Read as _, Write as _};
+use std::path::Path;
+
+/// Does what was asked.
+///
+/// # Errors
+/// If it was asked wrongly, a table cannot be read or drawn, or the output cannot be written.
+pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    let text = match &args.page {
+        Some(path) => page::described(path)?,
+        None if args.output.output.as_ref().is_some_and(|path| path.extension().is_some_and(|e| e == "html")) => {
+            page::of_chart(&args, typed)?
+        }
+        None => drawing::svg(&args)?,
+    };
+    let mut output = args.output.create()?;
+    output.write_all(text.as_bytes())?;
+    output.commit()
+}
+
+/// An error of a report as one of the program; what the table holds is not the asker's fault, what is asked for is.
+fn fault(error: &ReportError) -> anyhow::Error {
+    match error.asked_wrongly() {
+        true => usage(error.to_string()),
+        false => anyhow!("{error}"),
+    }
+}
+
+/// All that a file holds.
+fn bytes(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let mut bytes = vec![];
+    open_bytes(path)?.read_to_end(&mut bytes).with_context(|| named(path))?;
+    Ok(bytes)
+}

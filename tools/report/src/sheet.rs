@@ -1,0 +1,175 @@
+//! CSV files: read once, rows chosen by what their columns hold.
+
+mod choose;
+mod files;
+
+use crate::ReportError;
+
+pub use choose::Values;
+pub use files::Sheets;
+
+/// A CSV file, read.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    pub(crate) name: String,
+    pub(crate) columns: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
+    /// The line of each row, the first being 1.
+    pub(crate) lines: Vec<u64>,
+}
+
+impl Sheet {
+    /// Reads a table with a line of names; blanks around fields are no part of them. `name` is what errors call it.
+    ///
+    /// # Errors
+    /// If it is not CSV, or empty.
+    pub fn parse(name: &str, text: &[u8]) -> Result<Self, ReportError> {
+        Self::read(name, text, false, csv::ReaderBuilder::new().trim(csv::Trim::All))
+    }
+
+    /// Reads a table in which lines that begin with `#` are remarks.
+    ///
+    /// # Errors
+    /// If it is not CSV, or empty.
+    pub fn parse_with_remarks(name: &str, text: &[u8]) -> Result<Self, ReportError> {
+        Self::read(name, text, true, csv::ReaderBuilder::new().comment(Some(b'#')))
+    }
+
+    fn read(name: &str, text: &[u8], remarks: bool, reader: &csv::ReaderBuilder) -> Result<Self, ReportError> {
+        let mut reader = reader.from_reader(text);
+        let wrong = |error: csv::Error| ReportError::read(format!("{name}: {error}"));
+        let columns: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+        if columns.is_empty() {
+            return Err(ReportError::read(format!("{name}: the table is empty")));
+        }
+        let (mut rows, mut lines) = (vec![], vec![]);
+        for record in reader.records() {
+            let record = record.map_err(wrong)?;
+            lines.push(record.position().map_or(0, |before| line_of_record(text, before, remarks)));
+            rows.push(record.iter().map(str::to_owned).collect());
+        }
+        Ok(Self { name: name.to_owned(), columns, rows, lines })
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Names of its columns.
+    #[must_use]
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// Its rows, each with a field for every column.
+    #[must_use]
+    pub fn rows(&self) -> &[Vec<String>] {
+        &self.rows
+    }
+
+    /// The line of a row, the first being 1.
+    #[must_use]
+    pub fn line(&self, row: usize) -> u64 {
+        self.lines.get(row).copied().unwrap_or(0)
+    }
+
+    /// The number of a column, if there is one of this name.
+    #[must_use]
+    pub fn find(&self, column: &str) -> Option<usize> {
+        self.columns.iter().position(|known| known == column)
+    }
+
+    /// The number of a column.
+    ///
+    /// # Errors
+    /// If there is none of this name: says which there are.
+    pub fn column(&self, column: &str) -> Result<usize, ReportError> {
+        self.find(column).ok_or_else(|| {
+            let columns = self.columns.join(", ");
+            ReportError::asked(format!("{}: there is no column `{column}`; there are {columns}", self.name))
+        })
+    }
+
+    /// Puts the rows of another sheet below its own, by the names of the columns; what one of them lacks is empty.
+    pub(crate) fn append(&mut self, other: &Self) {
+        for column in &other.columns {
+            if self.find(column).is_none() {
+                self.add_column(column, vec![String::new(); self.rows.len()]);
+            }
+        }
+        for row in &other.rows {
+            let field = |column: &String| other.find(column).map_or(String::new(), |at| row[at].clone());
+            self.rows.push(self.columns.iter().map(field).collect());
+        }
+        self.lines.extend(&other.lines);
+        self.name = format!("{}, {}", self.name, other.name);
+    }
+
+    /// Adds a column with these fields.
+    pub(crate) fn add_column(&mut self, name: &str, fields: Vec<String>) {
+        self.columns.push(name.to_owned());
+        self.rows.iter_mut().zip(fields).for_each(|(row, field)| row.push(field));
+    }
+
+    /// These columns as CSV, with their names.
+    pub(crate) fn as_csv(&self, columns: &[usize]) -> String {
+        as_csv(std::iter::once(&self.columns).chain(&self.rows), columns)
+    }
+
+    /// These fields of a row as CSV, without an end of line.
+    pub(crate) fn row_as_csv(&self, row: usize, columns: &[usize]) -> String {
+        match columns {
+            // A record that is nothing but an empty field would have to be quoted; this may be a part of one.
+            &[column] if self.rows[row][column].is_empty() => String::new(),
+            _ => as_csv([&self.rows[row]], columns).trim_end_matches('\n').to_owned(),
+        }
+    }
+}
+
+fn as_csv<'a>(records: impl IntoIterator<Item = &'a Vec<String>>, columns: &[usize]) -> String {
+    let mut writer = csv::Writer::from_writer(vec![]);
+    for record in records {
+        // Into memory, with as many fields in each row: this does not fail.
+        let _ = writer.write_record(columns.iter().map(|&column| &record[column]));
+    }
+    writer.into_inner().map_or(String::new(), |csv| String::from_utf8_lossy(&csv).into_owned())
+}
+
+/// The line that a record begins on, where the reader was `before` it: lines that are empty, or remarks, may lie between.
+fn line_of_record(text: &[u8], before: &csv::Position, remarks: bool) -> u64 {
+    let rest = usize::try_from(before.byte()).ok().and_then(|at| text.get(at..)).unwrap_or_default();
+    let passed_over = |line: &&[u8]| line.trim_ascii().is_empty() || remarks && line.starts_with(b"#");
+    before.line() + rest.split(|&byte| byte == b'\n').take_while(passed_over).count() as u64
+}
+
+/// The number that a field holds.
+#[must_use]
+pub fn number(field: &str) -> Option<f64> {
+    field.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet(text: &str) -> Sheet {
+        Sheet::parse("t.csv", text.as_bytes()).expect("a table")
+    }
+
+    #[test]
+    fn tables_are_put_together_by_the_names_of_columns() {
+        let mut table = sheet("a,b\n1,2\n");
+        table.append(&sheet("b,c\n3,4\n"));
+        assert_eq!(table.columns, ["a", "b", "c"]);
+        assert_eq!(table.rows, [["1", "2", ""], ["", "3", "4"]]);
+    }
+
+    #[test]
+    fn rows_know_their_lines_whatever_stands_between() {
+        let table = Sheet::parse_with_remarks("t.csv", b"# remark\na,b\n\n1,\"2\n3\"\n# more\n4,5\n").expect("a table");
+        assert_eq!((table.line(0), table.line(1)), (4, 7));
+        assert_eq!(sheet("a\n\n\n1").line(0), 4);
+    }
+}
