@@ -102,9 +102,8 @@ fn what_cannot_be_estimated_is_refused_by_name() {
 #[test]
 fn samples_are_put_together_until_the_interval_is_as_narrow_as_asked() {
     let folder = folder();
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scripts/until.sh");
     let line = format!(
-        "BIN=$(dirname $(command -v pm-cachesim)) {script} --pilot 20 --window 20 --warm-up 30 --queries '{SIZE}' \
+        "pm-sweep until --pilot 20 --window 20 --warm-up 30 --queries '{SIZE}' \
          --gather map.pmp --cachesim '--cache 16K,full,128,lru'"
     );
     let row = |options: &str| {
@@ -129,13 +128,35 @@ fn samples_are_put_together_until_the_interval_is_as_narrow_as_asked() {
     let whole = rows(&folder, "pm-cachesim --cache 16K,full,128,lru --format json whole.pmt");
     let off = tuned["fetches_per_query"] - number(&whole[0], "fetches_per_query");
     assert!(off.abs() < 3.0 * tuned["fetches_per_query_error"], "{off} {tuned:?}");
-    // The formulas of the script are those of the pilot's own table, to the digits of its quantile.
+    // What is put together of one sample is that sample.
     folder.sh("pm-queries --size 32x24 --gathers 9 --only-tiles 20 --sample-seed 100 --window 20 --warm-up 30 -q | \
                pm-gather map.pmp -q -o pilot.pmt");
     let own = &rows(&folder, "pm-cachesim --cache 16K,full,128,lru --format json pilot.pmt")[0];
     for name in ["fetches_per_query", "fetches_per_query_error", "fetches", "reads_per_query_error", "sample_share"] {
-        assert!((pilot[name] / number(own, name) - 1.0).abs() < 1e-9, "{name}: {} {}", pilot[name], own[name]);
+        assert!((pilot[name] / number(own, name) - 1.0).abs() < 1e-14, "{name}: {} {}", pilot[name], own[name]);
     }
     let outcome = folder.sh(&format!("{line} --until lots"));
     assert!(outcome.code == 2 && outcome.stderr.contains("such as 1%"), "{}", outcome.stderr);
+    // A program that fails has its say, and its exit code is kept.
+    let outcome = folder.sh(&format!("{} --quiet", line.replace("--gather map.pmp", "--gather none.pmp")));
+    assert!(outcome.code == 1 && outcome.stderr.contains("pm-gather failed"), "{}", outcome.stderr);
+    let outcome = folder.sh(&format!("{line} --quiet --reorder nothing"));
+    assert!(outcome.code == 2 && outcome.stderr.contains("pm-reorder failed"), "{}", outcome.stderr);
+    assert!(outcome.stdout.is_empty());
+    // On the way it says how far it is, and at its end why it stops.
+    let outcome = folder.sh(&format!("{line} --until 0.001% --most 30"));
+    assert!(outcome.code == 0 && outcome.stderr.contains("pm-sweep: 30 windows, "), "{}", outcome.stderr);
+    let tight = folder.sh(&format!("{} --until 0.001% --warm-up 0", line.replace("--warm-up 30", "")));
+    assert!(tight.code == 0 && tight.stderr.contains("longer --warm-up"), "{}", tight.stderr);
+}
+
+#[test]
+fn every_column_of_a_sample_is_known_to_whoever_puts_samples_together() {
+    let folder = folder();
+    let csv = folder.run("pm-cachesim --cache 16K,full,128,lru --format csv w.pmt").ok();
+    let names: Vec<&str> = csv.text().lines().next().expect("names").split(',').collect();
+    let of_regions = |name: &&str| ["fetches_kd_nodes", "fetches_kd_nodes_error"].contains(name);
+    let (regions, plain): (Vec<&str>, Vec<&str>) = names.iter().partition(|name| of_regions(name));
+    assert_eq!(regions.len(), 2, "{names:?}");
+    assert_eq!(plain, pm_sweep::until::columns().collect::<Vec<_>>(), "left: pm-cachesim, right: pm-sweep");
 }

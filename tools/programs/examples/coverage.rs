@@ -2,7 +2,7 @@
 //!
 //! The trace is simulated once as a whole, and once with each cell as a window that begins with an empty cache and its
 //! warm-up. Then a sample is a choice of windows that are simulated already, and a thousand of them take a moment. All else
-//! is what `pm-queries --only-tiles`, `pm-cachesim` and `scripts/until.sh` do: the same choice, estimate, interval and rule.
+//! is what `pm-queries --only-tiles`, `pm-cachesim` and `pm-sweep until` do: the same choice, estimate, interval and rule.
 
 use clap::Parser;
 use pm_caches::{CacheConfig, Measures, Simulation, WindowedRow, Windows};
@@ -218,7 +218,10 @@ impl Population {
         for seed in 0..args.seeds {
             let ratio = match until {
                 None => self.sample(most, seed, &mut measured),
-                Some(until) => self.tuned(Tuning { until, pilot: (most / 2).max(4) }, most, seed, &mut measured),
+                Some(until) => {
+                    let tuning = Tuning { until: Some(until), pilot: (most / 2).max(4), most: Some(most) };
+                    self.tuned(tuning, [seed, args.seeds], &mut measured)
+                }
             };
             let off = ratio.value - self.truth;
             measured.held += u64::from(off.abs() <= ratio.half_width());
@@ -232,22 +235,18 @@ impl Population {
     }
 
     /// What a sample tells that windows are added to until its interval is narrow enough, or there are as many as may be.
-    fn tuned(&self, tuning: Tuning, most: u64, seed: u64, measured: &mut Measured) -> Ratio {
-        let mut windows = tuning.pilot;
-        let mut ratio = self.sample(windows, seed * ROUNDS, measured);
-        for round in 1..ROUNDS {
-            let more = tuning.missing(windows, &ratio).min(most - windows);
-            if more == 0 {
-                break;
-            }
-            ratio = ratio.with(self.sample(more, seed * ROUNDS + round, measured));
-            windows += more;
+    fn tuned(&self, tuning: Tuning, [seed, seeds]: [u64; 2], measured: &mut Measured) -> Ratio {
+        let mut sample = tuning.begin();
+        while let Some(round) = sample.next_round() {
+            // No two rounds of all samples have the same.
+            let seed = (round.number / ROUNDS * seeds + seed) * ROUNDS + round.number % ROUNDS;
+            sample.add(round, self.sample(round.windows, seed, measured));
         }
-        ratio
+        sample.ratio().expect("a pilot")
     }
 }
 
-/// The most rounds of a sample.
+/// Rounds whose seeds follow one another.
 const ROUNDS: u64 = 16;
 
 const MEASURES: [&str; 16] = [

@@ -3,10 +3,12 @@
 mod fingerprint;
 mod hold;
 mod join;
+mod pipe;
 mod row;
 mod rules;
 mod stack;
 mod tables;
+mod until;
 
 use crate::cli::Typed;
 use clap::{Parser, Subcommand};
@@ -26,7 +28,8 @@ const EXAMPLES: &str = "\
 Examples:
   make -j2 sweep SWEEP=my.csv
   pm-sweep rules --words scripts/words.csv my.csv
-  pm-sweep join --words scripts/words.csv my.csv -o out/my.csv";
+  pm-sweep join --words scripts/words.csv my.csv -o out/my.csv
+  pm-sweep until --until 1% --queries '--size 512x512' --window 50 --warm-up 20 --gather map.pmp";
 
 #[derive(Subcommand)]
 enum Command {
@@ -38,6 +41,8 @@ enum Command {
     Join(join::Args),
     /// Put tables with the same columns below one another
     Stack(stack::Args),
+    /// Add windows of a stream until fetches per query are known as well as asked
+    Until(Box<until::Args>),
     /// Print which sources the programs were built from, as variables for make
     Fingerprint,
     /// Take a folder for a process until its end, or say who has it
@@ -54,6 +59,7 @@ pub fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
         Command::Row(args) => row::run(&args),
         Command::Join(args) => join::run(&args),
         Command::Stack(args) => stack::run(&args),
+        Command::Until(args) => until::run(&args),
         Command::Fingerprint => fingerprint::run(),
         Command::Hold(args) => hold::run(&args),
     }

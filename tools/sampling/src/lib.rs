@@ -7,7 +7,7 @@ pub mod windows;
 
 pub use ratio::{Ratio, Spread};
 pub use student::{student_quantile, student_within};
-pub use tuning::Tuning;
+pub use tuning::{Missing, Round, Sample, Tuning};
 
 /// The share of intervals that hold the truth, if all that they assume is true.
 pub const CONFIDENCE: f64 = 0.95;

@@ -110,6 +110,15 @@ impl Ratio {
         }
     }
 
+    /// A ratio as a table has it: with half the width of its interval, of which `doubt` is a part. Nothing is known of the
+    /// spread without degrees of freedom.
+    #[must_use]
+    pub fn of_interval(value: f64, weight: f64, half_width: f64, doubt: f64, freedom: f64) -> Self {
+        let error = (half_width - doubt) / student_quantile(CONFIDENCE, freedom);
+        let spread = if freedom > 0.0 { Spread { variance: error * error, freedom } } else { Spread::default() };
+        Self { value, weight, spread, doubt }
+    }
+
     /// The ratio of two samples drawn independently, as of one: weighted by what each has below the line.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
@@ -173,6 +182,17 @@ mod tests {
         let total = Ratio::total(&most, &unknown, 0.1);
         assert!(close(total.value, 195.0) && close(total.doubt, 15.0));
         assert!(close(total.spread.variance, 100.0 * Spread::of_sum(&[3.0, 10.0, 6.5]).variance));
+    }
+
+    #[test]
+    fn a_ratio_is_known_from_its_interval() {
+        let ratio = Ratio::between(&[4.0, 10.0, 7.0, 8.0], &[2.0, 0.0, 1.0, 0.0], &[1.0, 2.0, 2.0, 3.0]);
+        let Ratio { value, weight, spread, doubt } = ratio;
+        let again = Ratio::of_interval(value, weight, ratio.half_width(), doubt, spread.freedom);
+        assert!(close(again.spread.variance, spread.variance) && again.spread.freedom == spread.freedom);
+        assert_eq!((again.value, again.weight, again.doubt), (value, weight, doubt));
+        let unknown = Ratio::of_interval(value, weight, f64::NAN, doubt, 0.0);
+        assert!(unknown.spread == Spread::default() && unknown.half_width().is_nan());
     }
 
     #[test]

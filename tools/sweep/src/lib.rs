@@ -19,6 +19,7 @@ mod stage;
 mod sweep;
 mod table;
 mod template;
+pub mod until;
 mod words;
 
 pub use error::{SweepError, TableError};
