@@ -1,7 +1,8 @@
 //! Orders of queries: generative ones decide which pixel comes next, deferred ones permute what was generated.
 //!
 //! A deferred order is a file in `deferred` that implements [`Order`], and a line in [`orders`]; what it does with queries
-//! is a [`Reorder`], and [`Reordering`] applies that to a stream. [`trial`] holds what every order must pass.
+//! is a [`Reorder`], and [`Reordering`] applies that to a stream. A generative order is a file in `generative` that implements
+//! [`GenerativeOrder`], and a line in [`generative_orders`]. [`trial`] holds what every order must pass.
 
 mod charge;
 mod costs;
@@ -20,7 +21,7 @@ pub mod trial;
 pub use charge::Charge;
 pub use costs::Costs;
 pub use deferred::orders;
-pub use generative::{Generative, Pass, Span, VisiblePoints};
+pub use generative::{Generative, GenerativeOrder, Pass, PixelRun, Span, VisiblePoints, generative_orders};
 pub use median_split::MedianSplit;
 pub use order::{Keys, Order, Setting};
 pub use partitions::Partitions;

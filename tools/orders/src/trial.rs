@@ -1,4 +1,5 @@
-//! What every deferred order must pass, whoever wrote it: [`all`], in a test of the crate that adds one.
+//! What every order must pass, whoever wrote it, in a test of the crate that adds one: [`all`] if it is a deferred one,
+//! [`generative`] if it is one of those.
 //!
 //! ```no_run
 //! # let orders = pm_orders::orders();
@@ -12,7 +13,8 @@ mod passing;
 pub use inputs::queries;
 pub use passing::{Form, Passed, forms};
 
-use crate::{Order, Per, Store, StoredQuery};
+use crate::generative::broken_promise;
+use crate::{GenerativeOrder, Order, Per, Store, StoredQuery};
 use passing::pass;
 use pm_formats::Query;
 use pm_formats::vocabulary::measure;
@@ -177,4 +179,21 @@ fn sorted(queries: impl IntoIterator<Item = Query>) -> Vec<Vec<u8>> {
     let mut all: Vec<_> = queries.into_iter().map(|query| bytemuck::bytes_of(&query).to_vec()).collect();
     all.sort();
     all
+}
+
+/// Every generative order, asked with nothing but its word: does it visit every pixel of some images for every ray once,
+/// batch by batch?
+///
+/// # Errors
+/// The first fault that is found.
+pub fn generative(orders: &Registry<dyn GenerativeOrder>) -> Verdict {
+    for entry in orders.iter() {
+        let fault = |what: String| Fault { order: entry.word().to_owned(), what };
+        let chosen = orders.ask(entry, []).map_err(|error| fault(error.to_string()))?;
+        let order = entry.make(&chosen.values, 4).map_err(|error| fault(error.to_string()))?;
+        for size in [[1, 1], [7, 5], [33, 17]] {
+            broken_promise(&*order, size).map_or(Ok(()), |what| Err(fault(format!("{size:?}: {what}"))))?;
+        }
+    }
+    Ok(())
 }

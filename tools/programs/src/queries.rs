@@ -7,29 +7,48 @@ mod cast;
 mod guide;
 mod sample;
 
-pub use args::Args;
-
-use crate::cli::{Progress, Typed};
+use crate::cli::{Chooser, Program, Progress, Typed, usage};
 use crate::setting;
+use args::Args;
 use base::{Base, Exposure};
 use cast::Casting;
+use clap::{Arg, CommandFactory, FromArgMatches};
 use guide::GuidePhotons;
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{Header, Number, RecordWriter, StageReport};
 use pm_light::scene::Scene;
 use pm_light::transport::{CacheOptions, CacheRecords, GatherRays, RayCounts};
-use pm_orders::Generative;
+use pm_orders::{Generative, GenerativeOrder};
+use pm_registry::{Chosen, Registry};
 use sample::Sample;
+
+/// What was asked: options, and an order in which the pixels are visited.
+pub struct Asked {
+    args: Args,
+    order: Chosen<dyn GenerativeOrder>,
+}
+
+/// The program, with these generative orders to choose from.
+#[must_use]
+pub fn program(orders: &Registry<dyn GenerativeOrder>) -> Program<Asked> {
+    let order = Arg::new("order").long("order").value_name("ORDER").help("Order in which the pixels are visited");
+    let chooser = Chooser::option(orders, order);
+    let command = chooser.add_parameters(chooser.add_word(Args::command()));
+    Program::new("pm-queries", command, move |matches| {
+        Ok(Asked { args: Args::from_arg_matches(matches)?, order: chooser.read(matches)? })
+    })
+}
 
 /// Does what was asked.
 ///
 /// # Errors
 /// If it was asked wrongly, the scene cannot be loaded, or an output cannot be written.
-pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
     args.check()?;
+    let order = &*order.entry.make(&order.values, args.gathers()).map_err(|error| usage(error.to_string()))?;
     let scene = args.scene.load(&args.common)?;
     let camera = args.scene.camera(&scene, &args.camera, &args.common)?;
-    let (size, order) = (camera.size(), args.order()?);
+    let size = camera.size();
     let threads = args.common.threads();
 
     let mut header = header(&args, &scene, size, order);
@@ -80,10 +99,10 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
 }
 
 /// What the header says of the picture and its rays.
-fn header(args: &Args, scene: &Scene, size: [u32; 2], order: Generative) -> Header {
+fn header(args: &Args, scene: &Scene, size: [u32; 2], order: &dyn Generative) -> Header {
     let mut header = setting::header(scene);
     header.image = size;
-    header.set_meaning(meaning::ORDER, order);
+    header.set_meaning(meaning::ORDER, order.label());
     if args.direct_visualisation {
         header.set_meaning(meaning::GATHERS, "none: direct visualisation");
     } else {

@@ -1,36 +1,22 @@
 //! `pm-scene`: writes scenes that are made by rule: OBJ, MTL and camera file.
 
-use crate::cli::{self, Common, Typed, create_output, usage};
+use crate::cli::{self, Chooser, Common, Program, Typed, create_output, usage};
 use anyhow::Context as _;
-use clap::Parser;
+use clap::{Arg, CommandFactory, FromArgMatches, Parser};
 use pm_light::make_scene::Recipe;
+use pm_registry::{Chosen, Registry};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Make a scene: NAME.obj, NAME.mtl and NAME.camera.toml, the same bytes whenever and wherever they are made.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-pub struct Args {
-    /// Which scene
-    name: Name,
+struct Args {
     /// Folder for the three files, or the OBJ file, beside which the others go
     #[arg(short, long, value_name = "FOLDER|FILE.obj")]
     output: PathBuf,
-    /// Triangles to make at least [default: fractal 200000, columns 60000, sphere 20000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1000..=20_000_000))]
-    triangles: Option<u32>,
     #[command(flatten)]
     common: Common,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Name {
-    /// The Cornell box with both spheres and fractal walls
-    Fractal,
-    /// A hall with columns, arches, a vault, windows and a reflecting floor
-    Columns,
-    /// An integrating sphere: the irradiance is known
-    Sphere,
 }
 
 const EXAMPLES: &str = "\
@@ -38,19 +24,30 @@ Examples:
   pm-scene fractal -o scenes
   pm-scene columns --triangles 500000 -o hall.obj";
 
+/// What was asked: which scene, and where it goes.
+pub struct Asked {
+    args: Args,
+    recipe: Chosen<dyn Recipe>,
+}
+
+/// The program, with these scenes to choose from.
+#[must_use]
+pub fn program(recipes: &Registry<dyn Recipe>) -> Program<Asked> {
+    let chooser = Chooser::positional(recipes, Arg::new("name").value_name("NAME").help("Which scene"));
+    let command = chooser.add_parameters(chooser.add_word(Args::command()));
+    Program::new("pm-scene", command, move |matches| {
+        Ok(Asked { args: Args::from_arg_matches(matches)?, recipe: chooser.read(matches)? })
+    })
+}
+
 /// Does what was asked.
 ///
 /// # Errors
 /// If it was asked wrongly, or the files cannot be written.
-pub fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
-    let recipe = match args.name {
-        Name::Fractal => Recipe::Fractal,
-        Name::Columns => Recipe::Columns,
-        Name::Sphere => Recipe::Sphere,
-    };
-    let obj = obj_path(&args.output, recipe.name())?;
+pub fn run(Asked { args, recipe: Chosen { entry: recipe, values } }: Asked, _: &Typed) -> anyhow::Result<()> {
+    let obj = obj_path(&args.output, recipe.word())?;
     let stem = obj.file_stem().and_then(|stem| stem.to_str()).context("the name of the OBJ file is not UTF-8")?;
-    let model = recipe.make(args.triangles.map_or(recipe.usual_triangles(), |triangles| triangles as usize));
+    let model = recipe.make(values.count("triangles"));
     // All are written before any appears, the OBJ last: where it is, the others are.
     let texts = [
         (obj.with_extension("mtl"), model.mtl(stem)),

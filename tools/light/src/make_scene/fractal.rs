@@ -6,9 +6,16 @@
 
 use super::grid::{lines_through, surface};
 use super::model::Model;
+use super::recipe::{Recipe, at_least};
 use crate::scene::Scene;
 use glam::{DVec3, Vec3};
 use pm_random::Random;
+use pm_registry::registered;
+
+registered! {
+    /// The Cornell box with both spheres and fractal walls
+    pub struct Fractal = "fractal" with [at_least("200000")];
+}
 
 /// Seed of the heights.
 const SEED: u64 = 2005;
@@ -26,45 +33,47 @@ const LIGHT_MARGIN: f64 = 0.1;
 const SPHERES: [DVec3; 2] = [DVec3::new(-0.21, 0.176, -0.2), DVec3::new(0.21, 0.176, 0.16)];
 const SPHERE_RADIUS: f64 = 0.175;
 
-/// The box with about `fineness` cells along each edge.
-pub(super) fn build(fineness: u32) -> Model {
-    let cells = fineness as usize;
-    let mut model = Model::new(
-        include_str!("../../../../scenes/cornell.mtl").split_once("\n\n").expect("a head and materials").1,
-        include_str!("../../../../scenes/cornell.camera.toml"),
-    );
-    model.about = vec![
-        "The Cornell box with a mirror and a glass sphere, its walls displaced inward by fractals of up to".into(),
-        "7 cm. Light, spheres, colours and camera are those of cornell. Metres, y up, open towards +z.".into(),
-    ];
-    // Walls share the lines along their common edges, so that these have no cracks.
-    let xs = lines_through(&[-0.5, -LIGHT[0], LIGHT[0], 0.5], cells);
-    let ys = lines_through(&[0.0, 1.0], cells);
-    let zs = lines_through(&[-0.5, -LIGHT[1], LIGHT[1], 0.5], cells);
-    let (nx, ny, nz) = (xs.len() - 1, ys.len() - 1, zs.len() - 1);
-    let all = |_: usize, _: usize| true;
+impl Recipe for Fractal {
+    /// The box has about `fineness` cells along each edge.
+    fn build(&self, fineness: u32) -> Model {
+        let cells = fineness as usize;
+        let mut model = Model::new(
+            include_str!("../../../../scenes/cornell.mtl").split_once("\n\n").expect("a head and materials").1,
+            include_str!("../../../../scenes/cornell.camera.toml"),
+        );
+        model.about = vec![
+            "The Cornell box with a mirror and a glass sphere, its walls displaced inward by fractals of up to".into(),
+            "7 cm. Light, spheres, colours and camera are those of cornell. Metres, y up, open towards +z.".into(),
+        ];
+        // Walls share the lines along their common edges, so that these have no cracks.
+        let xs = lines_through(&[-0.5, -LIGHT[0], LIGHT[0], 0.5], cells);
+        let ys = lines_through(&[0.0, 1.0], cells);
+        let zs = lines_through(&[-0.5, -LIGHT[1], LIGHT[1], 0.5], cells);
+        let (nx, ny, nz) = (xs.len() - 1, ys.len() - 1, zs.len() - 1);
+        let all = |_: usize, _: usize| true;
 
-    model.group("floor", "white");
-    surface(&mut model, nz, nx, |k, i| DVec3::new(xs[i], floor_height(xs[i], zs[k]), zs[k]), all);
-    model.group("ceiling", "white");
-    let in_light = |x: f64, z: f64| x.abs() < LIGHT[0] && z.abs() < LIGHT[1];
-    let ceiling = |i: usize, k: usize| DVec3::new(xs[i], 1.0 - ceiling_depth(xs[i], zs[k]), zs[k]);
-    let open = |i: usize, k: usize| in_light((xs[i] + xs[i + 1]) / 2.0, (zs[k] + zs[k + 1]) / 2.0);
-    surface(&mut model, nx, nz, ceiling, |i, k| !open(i, k));
-    model.group("back", "white");
-    let back = |i: usize, j: usize| DVec3::new(xs[i], ys[j], -0.5 + height(3, xs[i] + 0.5, ys[j]));
-    surface(&mut model, nx, ny, back, all);
-    model.group("left", "red");
-    let left = |j: usize, k: usize| DVec3::new(-0.5 + height(4, ys[j], zs[k] + 0.5), ys[j], zs[k]);
-    surface(&mut model, ny, nz, left, all);
-    model.group("right", "green");
-    let right = |k: usize, j: usize| DVec3::new(0.5 - height(5, ys[j], zs[k] + 0.5), ys[j], zs[k]);
-    surface(&mut model, nz, ny, right, all);
+        model.group("floor", "white");
+        surface(&mut model, nz, nx, |k, i| DVec3::new(xs[i], floor_height(xs[i], zs[k]), zs[k]), all);
+        model.group("ceiling", "white");
+        let in_light = |x: f64, z: f64| x.abs() < LIGHT[0] && z.abs() < LIGHT[1];
+        let ceiling = |i: usize, k: usize| DVec3::new(xs[i], 1.0 - ceiling_depth(xs[i], zs[k]), zs[k]);
+        let open = |i: usize, k: usize| in_light((xs[i] + xs[i + 1]) / 2.0, (zs[k] + zs[k + 1]) / 2.0);
+        surface(&mut model, nx, nz, ceiling, |i, k| !open(i, k));
+        model.group("back", "white");
+        let back = |i: usize, j: usize| DVec3::new(xs[i], ys[j], -0.5 + height(3, xs[i] + 0.5, ys[j]));
+        surface(&mut model, nx, ny, back, all);
+        model.group("left", "red");
+        let left = |j: usize, k: usize| DVec3::new(-0.5 + height(4, ys[j], zs[k] + 0.5), ys[j], zs[k]);
+        surface(&mut model, ny, nz, left, all);
+        model.group("right", "green");
+        let right = |k: usize, j: usize| DVec3::new(0.5 - height(5, ys[j], zs[k] + 0.5), ys[j], zs[k]);
+        surface(&mut model, nz, ny, right, all);
 
-    for name in ["light", "mirror", "glass"] {
-        copy(&mut model, name);
+        for name in ["light", "mirror", "glass"] {
+            copy(&mut model, name);
+        }
+        model
     }
-    model
 }
 
 /// The floor rises nowhere more than half-way to a sphere above it.
@@ -145,7 +154,7 @@ mod tests {
     /// Does no wall touch a sphere or hang into the light? (A sphere that sinks into the floor leaks light.)
     #[test]
     fn walls_keep_clear_of_spheres_and_light() {
-        let walls = build(142);
+        let walls = Fractal.build(142);
         let cornell = Scene::embedded();
         for part in ["o floor", "o ceiling", "o back", "o left", "o right"] {
             assert!(walls.obj("t").contains(part), "{part}");

@@ -49,3 +49,13 @@ pub(super) fn lines_through(stops: &[f64], cells: usize) -> Vec<f64> {
     }
     out
 }
+
+/// A box by its middle and half its sides, faces outward.
+pub(super) fn cuboid(model: &mut Model, middle: DVec3, half: DVec3) {
+    for axis in 0..3 {
+        let (mut n, mut u, mut v) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        (n[axis], u[(axis + 1) % 3], v[(axis + 2) % 3]) = (half[axis], half[(axis + 1) % 3], half[(axis + 2) % 3]);
+        plane(model, middle + n - u - v, u * 2.0, v * 2.0, 1, 1);
+        plane(model, middle - n - u - v, v * 2.0, u * 2.0, 1, 1);
+    }
+}

@@ -6,7 +6,7 @@
 
 use super::gather_rays::GatherRays;
 use super::ray_counts::RayCounts;
-use pm_orders::{Generative, Pass, Span, VisiblePoints};
+use pm_orders::{Generative, Pass, Span};
 use pm_parallel::in_order;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -18,11 +18,20 @@ const SPANS_A_JOB: usize = 32;
 
 /// The points seen of an image, counted in the order of their pixels.
 pub struct RayPlan {
-    passes: Vec<Pass>,
-    /// Gather rays of each point seen that precede each bin, and of all bins.
-    before_bin: Vec<u64>,
+    passes: Vec<PlannedPass>,
+    /// Gather rays of each point seen, of all passes together.
+    rays_a_point: u64,
     batches: Vec<Batch>,
     rays: u64,
+}
+
+/// A pass over a batch.
+struct PlannedPass {
+    pass: Pass,
+    /// Gather rays of each of its points.
+    rays_a_point: u64,
+    /// Gather rays of the passes before it: of each point seen directly, of each behind specular surfaces.
+    before: [u64; 2],
 }
 
 /// A row or tile.
@@ -60,12 +69,18 @@ struct Seen {
 impl RayPlan {
     /// Casts the eye rays of an image that is visited in `order`, on so many threads, and counts them in `counts`.
     #[must_use]
-    pub fn new(rays: &GatherRays<'_>, order: Generative, threads: usize, counts: &mut RayCounts) -> Self {
-        let mut before_bin = vec![0];
-        for more in rays.strata.bin_sizes() {
-            before_bin.push(before_bin[before_bin.len() - 1] + more);
-        }
-        let mut plan = Self { passes: order.passes().collect(), before_bin, batches: vec![], rays: 0 };
+    pub fn new(rays: &GatherRays<'_>, order: &dyn Generative, threads: usize, counts: &mut RayCounts) -> Self {
+        let bins: Vec<u64> = rays.strata.bin_sizes().collect();
+        let mut before = [0; 2];
+        let plan = |pass: Pass| {
+            let planned = PlannedPass { pass, rays_a_point: bins[pass.bin as usize], before };
+            for (rays, behind_specular) in before.iter_mut().zip([false, true]) {
+                *rays += if pass.points.include(behind_specular) { planned.rays_a_point } else { 0 };
+            }
+            planned
+        };
+        let passes = order.passes().into_iter().map(plan).collect();
+        let mut plan = Self { passes, rays_a_point: bins.iter().sum(), batches: vec![], rays: 0 };
         let mut spans = order.spans(rays.size()).filter(|span| span.pass.is_first());
         let some = || Ok(Some(spans.by_ref().take(SPANS_A_JOB).collect()).filter(|some: &Vec<_>| !some.is_empty()));
         let look = |spans: Vec<Span>| spans.into_iter().map(|span| look(rays, span)).collect();
@@ -87,7 +102,7 @@ impl RayPlan {
         for (columns, [direct, behind]) in stretches(&span).zip(points) {
             batch.stretches.push(Stretch { row: span.row, columns, before: batch.points });
             batch.points = [batch.points[0] + direct, batch.points[1] + behind];
-            self.rays += (direct + behind) * self.before_bin[self.before_bin.len() - 1];
+            self.rays += (direct + behind) * self.rays_a_point;
         }
     }
 
@@ -104,25 +119,28 @@ impl RayPlan {
         let batches = (first..self.batches.len()).take_while(move |&batch| self.batches[batch].first < end);
         batches.flat_map(move |batch| {
             let wanted = wanted.start..end;
-            self.passes.iter().flat_map(move |&pass| self.pieces_of_pass(batch, pass, &wanted))
+            self.passes.iter().flat_map(move |planned| self.pieces_of_pass(batch, planned, &wanted))
         })
     }
 
-    fn pieces_of_pass(&self, number: usize, pass: Pass, wanted: &Range<u64>) -> impl Iterator<Item = Piece> + use<'_> {
+    fn pieces_of_pass<'a>(
+        &'a self,
+        number: usize,
+        planned: &'a PlannedPass,
+        wanted: &Range<u64>,
+    ) -> impl Iterator<Item = Piece> + use<'a> {
         let batch = &self.batches[number];
-        let points = move |[direct, behind]: [u64; 2]| match pass.points {
-            VisiblePoints::All => direct + behind,
-            VisiblePoints::Direct => direct,
-            VisiblePoints::BehindSpecular => behind,
+        let &PlannedPass { pass, rays_a_point, before } = planned;
+        let points = move |[direct, behind]: [u64; 2]| {
+            let of = |points: u64, behind_specular| if pass.points.include(behind_specular) { points } else { 0 };
+            of(direct, false) + of(behind, true)
         };
-        // The rays of a batch are ordered by whether they begin behind specular surfaces, then by bin, then by point.
-        let [before, through] = [0, 1].map(|end| self.before_bin[pass.bin as usize + end]);
-        let earlier = if pass.points == VisiblePoints::BehindSpecular { batch.points[0] } else { 0 };
-        let earlier = earlier * self.before_bin[self.before_bin.len() - 1] + points(batch.points) * before;
-        let place = move |point: u64| batch.first + earlier + point * (through - before);
+        // The rays of a batch are ordered by pass, then by point.
+        let first = batch.first + batch.points[0] * before[0] + batch.points[1] * before[1];
+        let place = move |point: u64| first + point * rays_a_point;
         let Range { start, end } = *wanted;
-        let first = batch.stretches.partition_point(|stretch| place(points(stretch.before)) <= start);
-        let stretches = first.saturating_sub(1)..batch.stretches.len();
+        let first_stretch = batch.stretches.partition_point(|stretch| place(points(stretch.before)) <= start);
+        let stretches = first_stretch.saturating_sub(1)..batch.stretches.len();
         let placed = stretches.map(move |at| {
             let stretch = &batch.stretches[at];
             let next = batch.stretches.get(at + 1).map_or(batch.points, |next| next.before);

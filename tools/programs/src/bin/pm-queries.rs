@@ -1,8 +1,9 @@
 //! Casts the rays of a picture and writes where photons are to be gathered.
 
-use pm_programs::{cli, queries};
+use pm_orders::generative_orders;
+use pm_programs::queries;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::main("pm-queries", queries::run)
+    queries::program(&generative_orders()).main(queries::run)
 }

@@ -1,8 +1,9 @@
 //! Writes scenes that are made by rule: OBJ, MTL and camera file.
 
-use pm_programs::{cli, scene};
+use pm_light::make_scene::recipes;
+use pm_programs::scene;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::main("pm-scene", scene::run)
+    scene::program(&recipes()).main(scene::run)
 }

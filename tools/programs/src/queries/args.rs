@@ -6,13 +6,12 @@ use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
 use pm_light::scene::Bounds;
 use pm_light::transport::{GatherOptions, Method, Spread, Strata};
-use pm_orders::Generative;
 use std::path::PathBuf;
 
 /// Cast eye rays and final-gather rays; write a gather query wherever one ends on a diffuse surface.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     pub(super) scene: SceneArgs,
     #[command(flatten)]
@@ -41,15 +40,6 @@ pub struct Args {
     /// `pm-queries --direct-visualisation`: a gather ray that meets a lamp in a mirror or through glass does not count
     #[arg(long, hide_short_help = true)]
     no_caustics: bool,
-    /// Order in which the pixels are visited
-    #[arg(long, default_value = "scanline")]
-    order: Order,
-    /// Width and height of a tile in pixels
-    #[arg(long, value_name = "PIXELS", default_value = "16", value_parser = clap::value_parser!(u32).range(1..))]
-    tile: u32,
-    /// Bins of the hemisphere for --order direction-binned, at most as many as --gathers; default: as many
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), hide_short_help = true)]
-    bins: Option<u32>,
     /// In which order the gather rays of a point are cast
     #[arg(long, default_value = "raster", hide_short_help = true, value_parser = choice::<Strata>())]
     strata: Strata,
@@ -77,16 +67,6 @@ pub struct Args {
     pub(super) output: OutputArgs,
     #[command(flatten)]
     pub(super) common: Common,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Order {
-    /// Pixel by pixel, row by row; a row is a batch
-    Scanline,
-    /// Square tiles, each in scanline order and a batch; what is seen by reflection or refraction comes last in each
-    Tiled,
-    /// As tiled, with a pass over each tile for every bin of the hemisphere
-    DirectionBinned,
 }
 
 const EXAMPLES: &str = "\
@@ -163,24 +143,6 @@ impl Args {
     /// Gather rays of each point seen; points that are asked at themselves have no hemisphere, and count as one.
     pub(super) const fn gathers(&self) -> u32 {
         if self.direct_visualisation { 1 } else { self.gathers }
-    }
-
-    /// In which order the pixels are visited.
-    pub(super) fn order(&self) -> anyhow::Result<Generative> {
-        Ok(match self.order {
-            Order::Scanline => Generative::Scanline,
-            Order::Tiled => Generative::Tiled { tile: self.tile },
-            Order::DirectionBinned => {
-                let strata = self.gathers();
-                let bins = self.bins.unwrap_or(strata);
-                if bins > strata {
-                    return Err(cli::usage(format!(
-                        "--bins {bins} is more than the {strata} strata: give at most {strata}"
-                    )));
-                }
-                Generative::DirectionBinned { tile: self.tile, bins }
-            }
-        })
     }
 
     /// How queries are made in a scene of these bounds.

@@ -19,7 +19,7 @@ pub(super) struct Casting<'a> {
     pub(super) rays: &'a GatherRays<'a>,
     pub(super) cache: Option<&'a CacheRecords>,
     pub(super) sample: &'a Sample,
-    pub(super) order: Generative,
+    pub(super) order: &'a dyn Generative,
     /// Width and height of the picture.
     pub(super) size: [u32; 2],
     /// Gather rays of all samples of a pixel whose samples each see one point.
@@ -44,9 +44,10 @@ impl Casting<'_> {
         mut done: impl FnMut(Cast, &Job) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
         let mut jobs = self.sample.jobs(self.order, self.size);
+        let (rays_a_pixel, worth) = self.worth_a_job();
         in_order(
             threads,
-            || anyhow::Ok(self.some_jobs(&mut jobs)),
+            || anyhow::Ok(some_jobs(&mut jobs, rays_a_pixel, worth)),
             |jobs: Vec<Job>| {
                 let mut caster = PixelCaster::new(self.rays, self.cache);
                 jobs.into_iter().map(|job| (self.cast(&mut caster, &job), job)).collect::<Vec<_>>()
@@ -55,23 +56,16 @@ impl Casting<'_> {
         )
     }
 
-    /// As many jobs as make a piece of work: a span of few rays is not worth a message to a thread and back.
-    fn some_jobs(&self, jobs: &mut dyn Iterator<Item = Job>) -> Option<Vec<Job>> {
-        let rays_a_pixel = self.gathers_a_pixel.div_ceil(u64::from(self.order.bins()));
-        let worth = match self.order {
-            Generative::DirectionBinned { tile, .. } => {
-                (PASSES_A_JOB * rays_a_pixel).saturating_mul(u64::from(tile).pow(2)).clamp(WORTH_A_JOB, MOST_A_JOB)
-            }
-            _ => WORTH_A_JOB,
-        };
-        let (mut some, mut rays) = (vec![], 0);
-        while rays < worth {
-            let Some(job) = jobs.next() else { break };
-            let pixels = u64::from(job.span.columns.end - job.span.columns.start);
-            rays += job.rays.as_ref().map_or(pixels * rays_a_pixel, |_| job.size());
-            some.push(job);
+    /// Rays of a pixel at one visit, and rays that are worth a message to a thread and back.
+    fn worth_a_job(&self) -> (u64, u64) {
+        let bins = u64::from(self.order.bins());
+        let rays_a_pixel = self.gathers_a_pixel.div_ceil(bins);
+        if bins == 1 {
+            return (rays_a_pixel, WORTH_A_JOB);
         }
-        Some(some).filter(|some| !some.is_empty())
+        let batch = self.order.batches(self.size).next().unwrap_or_default();
+        let pixels: u64 = batch.iter().map(|run| run.columns.len() as u64).sum();
+        (rays_a_pixel, (PASSES_A_JOB * rays_a_pixel).saturating_mul(pixels).clamp(WORTH_A_JOB, MOST_A_JOB))
     }
 
     fn cast(&self, caster: &mut PixelCaster<'_>, Job { span, rays: some, .. }: &Job) -> Result<Cast, Overflow> {
@@ -96,4 +90,16 @@ impl Casting<'_> {
         }
         too_bright.map_or(Ok(cast), Err)
     }
+}
+
+/// As many jobs as are worth so many rays.
+fn some_jobs(jobs: &mut dyn Iterator<Item = Job>, rays_a_pixel: u64, worth: u64) -> Option<Vec<Job>> {
+    let (mut some, mut rays) = (vec![], 0);
+    while rays < worth {
+        let Some(job) = jobs.next() else { break };
+        let pixels = u64::from(job.span.columns.end - job.span.columns.start);
+        rays += job.rays.as_ref().map_or(pixels * rays_a_pixel, |_| job.size());
+        some.push(job);
+    }
+    Some(some).filter(|some| !some.is_empty())
 }

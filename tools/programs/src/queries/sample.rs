@@ -57,7 +57,7 @@ impl SampleArgs {
     /// If more is wanted than there is.
     pub(super) fn choose(
         &self,
-        order: Generative,
+        order: &dyn Generative,
         size: [u32; 2],
         rays: &GatherRays<'_>,
         threads: usize,
@@ -65,7 +65,7 @@ impl SampleArgs {
     ) -> anyhow::Result<Sample> {
         let Some(n) = self.only_tiles else { return Ok(Sample::All) };
         let Some(length) = self.window else {
-            let of = order.batches(size);
+            let of = order.batch_count(size);
             let choice = Choice::new(of, n, self.sample_seed).ok_or_else(|| {
                 usage(format!("--only-tiles {n}: the picture has {of} batches (tiles or scanlines): give at most {of}"))
             })?;
@@ -88,7 +88,7 @@ impl SampleArgs {
 
 impl Sample {
     /// What is cast, in order.
-    pub(super) fn jobs(&self, order: Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + '_> {
+    pub(super) fn jobs<'a>(&'a self, order: &'a dyn Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + 'a> {
         let batch = |batch, warm_up| BlockMeta { batch, warm_up, records: 0 };
         match self {
             Self::All => {
@@ -119,7 +119,7 @@ impl Sample {
     }
 
     /// Number of pixels, or else of rays, that [`Job::size`] counts.
-    pub(super) fn size(&self, order: Generative, size: [u32; 2]) -> u64 {
+    pub(super) fn size(&self, order: &dyn Generative, size: [u32; 2]) -> u64 {
         match self {
             Self::All => u64::from(size[0]) * u64::from(size[1]),
             Self::Batches { .. } => self.jobs(order, size).map(|job| job.size()).sum(),

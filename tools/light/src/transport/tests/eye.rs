@@ -5,7 +5,7 @@ use super::pictures::{OPTIONS, rays_with};
 use super::scenes::{camera, shipped};
 use crate::scene::{Camera, CameraOverrides, FileSystem};
 use glam::Vec3;
-use pm_orders::Generative;
+use pm_orders::{Pass, VisiblePoints};
 
 /// Where in the image a point is seen, in pixels: the camera's definition turned round.
 fn project(camera: &Camera, point: Vec3) -> (f64, f64) {
@@ -45,10 +45,10 @@ fn a_pixel_that_is_remembered_is_seen_as_at_first() {
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
     let camera = Camera::find(&[path], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
     let rays = GatherRays::new(&scene, camera, GatherOptions { gathers: 4, ..OPTIONS }).with_bins(4);
-    let order = Generative::DirectionBinned { tile: 32, bins: 4 };
+    let passes = Pass::every_ray(&[VisiblePoints::Direct, VisiblePoints::BehindSpecular], 4);
     for first in [0, 1] {
         let mut caster = PixelCaster::new(&rays, None);
-        for pass in order.passes().skip(first) {
+        for &pass in &passes[first..] {
             let (mut remembered, mut afresh) =
                 ((vec![], vec![], RayCounts::default()), (vec![], vec![], RayCounts::default()));
             for (x, y) in (0..20).flat_map(|y| (0..24).map(move |x| (x, y))) {
