@@ -1,5 +1,6 @@
 //! The program pm-sweep: experiments as tables, for make to run.
 
+mod derive;
 mod fingerprint;
 mod hold;
 mod join;
@@ -43,6 +44,8 @@ enum Command {
     Stack(stack::Args),
     /// Add windows of a stream until fetches per query are known as well as asked
     Until(Box<until::Args>),
+    /// Make a table of results, or judge them: see `pm-sweep derive --list`
+    Derive(derive::Args),
     /// Print which sources the programs were built from, as variables for make
     Fingerprint,
     /// Take a folder for a process until its end, or say who has it
@@ -60,6 +63,7 @@ pub fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
         Command::Join(args) => join::run(&args),
         Command::Stack(args) => stack::run(&args),
         Command::Until(args) => until::run(&args),
+        Command::Derive(args) => derive::run(&args),
         Command::Fingerprint => fingerprint::run(),
         Command::Hold(args) => hold::run(&args),
     }

@@ -1,0 +1,110 @@
+//! What a derivation is, and which there are.
+
+use crate::Table;
+use pm_registry::{Registered, Registry};
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::str::FromStr;
+
+/// A table, or a text, made of tables.
+pub struct Derivation {
+    /// Its word.
+    pub word: &'static str,
+    /// What it tells, in a line.
+    pub help: &'static str,
+    /// Names of the settings that it takes.
+    pub settings: &'static [&'static str],
+    /// Makes it.
+    pub derive: fn(&Asked<'_>) -> Result<Derived, VerdictError>,
+}
+
+/// What a derivation is made of.
+pub struct Asked<'a> {
+    /// The tables, in the order in which they were given.
+    pub tables: &'a [Table],
+    /// Settings by name.
+    pub settings: &'a BTreeMap<String, String>,
+    /// Looks up another table.
+    pub look_up: &'a dyn Fn(&str) -> Option<Table>,
+}
+
+/// What came of it.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Derived {
+    /// The table or text.
+    pub text: String,
+    /// What does not hold, if it judges.
+    pub fault: Option<String>,
+}
+
+impl From<String> for Derived {
+    fn from(text: String) -> Self {
+        Self { text, fault: None }
+    }
+}
+
+/// Why nothing can be derived.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct VerdictError(pub String);
+
+/// An error that says so.
+pub(crate) fn fail<T>(text: impl Display) -> Result<T, VerdictError> {
+    Err(VerdictError(text.to_string()))
+}
+
+impl Registered for Derivation {
+    fn word(&self) -> &'static str {
+        self.word
+    }
+
+    fn help(&self) -> &'static str {
+        self.help
+    }
+}
+
+/// All derivations.
+#[must_use]
+pub fn derivations() -> Registry<Derivation> {
+    Registry::new(
+        "derivation",
+        &[
+            &crate::accuracy::ACCURACY,
+            &crate::batches::BATCHES,
+            &crate::budget::BUDGET,
+            &crate::cheapest::CHEAPEST,
+            &crate::claims::CLAIMS,
+            &crate::compare::COMPARE,
+            &crate::coverage::COVERAGE,
+            &crate::exact::EXACT,
+            &crate::flux::FLUX,
+            &crate::frontier::FRONTIER,
+            &crate::least::LEAST,
+            &crate::mean::MEAN,
+            &crate::powers::POWERS,
+            &crate::regions::REGIONS,
+            &crate::sampled::SAMPLED,
+            &crate::structures::STRUCTURES,
+            &crate::table1::TABLE_1,
+            &crate::traffic::TRAFFIC,
+        ],
+    )
+}
+
+impl Asked<'_> {
+    /// The table at a place.
+    pub(crate) fn table(&self, at: usize) -> Result<&Table, VerdictError> {
+        self.tables.get(at).map_or_else(|| fail(format!("{} tables are wanted, or more", at + 1)), Ok)
+    }
+
+    /// A setting, if it was made.
+    pub(crate) fn setting<T: FromStr>(&self, name: &str) -> Result<Option<T>, VerdictError> {
+        let Some(text) = self.settings.get(name) else { return Ok(None) };
+        text.parse().map_or_else(|_| fail(format!("{name}={text} is not understood")), |value| Ok(Some(value)))
+    }
+
+    /// A setting that has to be made.
+    pub(crate) fn needed<T: FromStr>(&self, name: &str) -> Result<T, VerdictError> {
+        self.setting(name)?.map_or_else(|| fail(format!("give --with {name}=...")), Ok)
+    }
+}

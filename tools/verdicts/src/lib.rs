@@ -1,0 +1,28 @@
+//! What results say: tables that are derived from the rows of sweeps, and judgements on them.
+//!
+//! Each is a file here and a line in [`derivations`]: from tables, and perhaps some settings, to a text. A judgement says as
+//! well what does not hold. None reads a file: whoever asks brings the tables, and the means to look up others.
+
+mod accuracy;
+mod batches;
+mod budget;
+mod cheapest;
+mod claims;
+mod compare;
+mod coverage;
+mod derivation;
+mod exact;
+mod flux;
+mod frontier;
+mod least;
+mod mean;
+mod powers;
+mod regions;
+mod sampled;
+mod structures;
+mod table;
+mod table1;
+mod traffic;
+
+pub use derivation::{Asked, Derivation, Derived, VerdictError, derivations};
+pub use table::Table;
