@@ -27,7 +27,7 @@ PHOTONS := 100000
 ORDERS := scanline tiled tiled-hilbert hilbert random
 
 run: $(ORDERS:%=out/%.csv) out/cornell.exr ## The five orders compared: a table, a picture, and the streams in out/
-	@awk -v tiles=64 -v rays=$$((128 * 128 * $(GATHERS))) -f scripts/compare.awk scripts/paper.csv $(ORDERS:%=out/%.csv)
+	@$(BIN)/pm-sweep derive compare --with size=$(SIZE) --with gathers=$(GATHERS) scripts/paper.csv $(ORDERS:%=out/%.csv)
 	@echo
 	@echo "Picture: out/cornell.exr (linear), out/cornell.png (preview). Streams: out/*.pmp, *.pmq, *.pmt; see pm-view."
 
@@ -76,13 +76,13 @@ $(ORDERS:%=out/%.csv): out/%.csv: out/%.pmt
 # ---- make full-size: the paper's own size, nothing left out ---------------------------------------------------------
 
 full-size: out/full.csv out/variants.csv ## The paper's size (512 x 512, 100 gathers, 450,000 photons) in full: an hour with -j2
-	@awk -v tiles=1024 -v rays=$$((512 * 512 * 100)) -f scripts/compare.awk scripts/paper.csv $^
-	@awk -f scripts/csv.awk -f scripts/traffic.awk $<
+	@$(BIN)/pm-sweep derive compare --with size=512x512 --with gathers=100 scripts/paper.csv $^
+	@$(BIN)/pm-sweep derive traffic $<
 
 # ---- make causes: what the fetches of the plain order depend on, at 64 x 64 pixels and the paper's 450,000 photons --
 
 causes: out/causes.csv ## What the fetches of the plain order depend on: strata, start radius, second touch, layout, photons
-	@awk -v tiles=16 -v rays=$$((64 * 64 * 100)) -f scripts/compare.awk scripts/paper.csv $<
+	@$(BIN)/pm-sweep derive compare --with size=64x64 --with gathers=100 scripts/paper.csv $<
 
 include scripts/charts.mk
 include scripts/frontier.mk

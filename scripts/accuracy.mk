@@ -22,10 +22,10 @@ PICTURES := $(FURNACES) $(BOXES) cached full
 EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
 
 accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: three minutes
-	@awk -f scripts/accuracy.awk $(KNOWN) $^
+	@$(BIN)/pm-sweep derive accuracy $(KNOWN) $(filter %.csv,$^)
 
 # The rectangles of a picture that something is known of.
-regions = $(shell awk -F, -v e=$1 '$$1 == e { n = split($$2, part, " - "); for (i = 1; i <= n; i++) { gsub(" ", ",", part[i]); print "--mean " part[i] } }' $(KNOWN))
+regions = $(shell $(BIN)/pm-sweep derive regions --with experiment=$1 $(KNOWN))
 
 # By the words of the target's name: scene, method, k. With few neighbours there must be many pixels for a mean.
 words = $(subst -, ,$*)
@@ -61,22 +61,22 @@ $(SCENE_grey): scenes/furnace.obj scenes/furnace.mtl scenes/furnace.camera.toml 
 	cp scenes/furnace.camera.toml $(@D)/grey.camera.toml
 	sed 's/^mtllib .*/mtllib grey.mtl/' $< > $@
 
-PLACE_mm := -v scale=1000 -v offset=0
-PLACE_far := -v scale=100 -v offset=1e5
-$(foreach at,mm far,$(ACCURACY)/scenes/furnace-$(at).obj $(ACCURACY)/scenes/cornell-diffuse-$(at).obj): $(ACCURACY)/scenes/%.obj: scripts/place.awk | $(ACCURACY)/scenes
+PLACE_mm := --scale 1000
+PLACE_far := --scale 100 --offset 1e5
+$(foreach at,mm far,$(ACCURACY)/scenes/furnace-$(at).obj $(ACCURACY)/scenes/cornell-diffuse-$(at).obj): $(ACCURACY)/scenes/%.obj: $(call made_with,PROGRAMS) | $(ACCURACY)/scenes
 	cp scenes/*.mtl $(@D)
-	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).camera.toml > $(@D)/$*.camera.toml
-	awk $(PLACE_$(lastword $(words))) -f $< scenes/$(*:-$(lastword $(words))=).obj > $@
+	$(BIN)/pm-sweep place $(PLACE_$(lastword $(words))) scenes/$(*:-$(lastword $(words))=).camera.toml -o $(@D)/$*.camera.toml
+	$(BIN)/pm-sweep place $(PLACE_$(lastword $(words))) scenes/$(*:-$(lastword $(words))=).obj -o $@
 
 # Sixteen maps tell the flux and its standard error.
 $(BATCHES:%=$(ACCURACY)/flux-%.pmp): $(ACCURACY)/flux-%.pmp: $(SCENE_box) $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q $< -n 65536 --seed $* -t $(THREADS) -o $@
 
 $(BATCHES:%=$(ACCURACY)/flux-%.csv): %.csv: %.pmp
-	$(LAUNCH) sh -c '$(BIN)/pm-view --records $< | awk -v paths=$$($(BIN)/pm-view -q $< | sed -n "s/.*emitted_paths *//p" | tr -d ,) -f scripts/flux.awk' > $@
+	$(LAUNCH) sh -c '$(BIN)/pm-view --records $< | $(BIN)/pm-sweep derive flux --with paths=$$($(BIN)/pm-view -q $< | sed -n "s/.*emitted_paths *//p" | tr -d ,) -' > $@
 
 $(ACCURACY)/flux.csv: $(BATCHES:%=$(ACCURACY)/flux-%.csv)
-	awk -f scripts/batches.awk $^ > $@
+	$(BIN)/pm-sweep derive batches $(filter %.csv,$^) -o $@
 
 # The map itself at edges and corners, where there is little light and few photons: eight maps of a million.
 EDGES := 1 2 3 4 5 6 7 8
@@ -90,7 +90,7 @@ $(EDGES:%=$(ACCURACY)/edges-%.csv): %.csv: %.exr
 	$(LAUNCH) $(BIN)/pm-view $< $(call regions,edges) --format csv -o $@
 
 $(ACCURACY)/edges.csv: $(EDGES:%=$(ACCURACY)/edges-%.csv)
-	awk -f scripts/batches.awk $^ > $@
+	$(BIN)/pm-sweep derive batches $(filter %.csv,$^) -o $@
 
 # Cached irradiance against a full gather. Speckles of caustics would drown what is compared. A quarter of the rays is
 # enough for the mean of the full one; its searches are counted with all.
@@ -103,13 +103,13 @@ $(ACCURACY)/cornell.pmp: $(call made_with,PROGRAMS) | $(ACCURACY)
 	$(LAUNCH) $(BIN)/pm-photons -q -n 100000 -t $(THREADS) -o $@
 
 $(ACCURACY)/cached-searches.csv $(ACCURACY)/full-searches.csv: $(ACCURACY)/%-searches.csv: $(call made_with,PROGRAMS) | $(ACCURACY)
-	$(LAUNCH) sh -c '$(BIN)/pm-queries -q $(CACHE_$*) -t $(THREADS) | $(BIN)/pm-view -q --check | awk -F "whole, " "{ print \"name,r,g,b\"; print \"searches,\" \$$2 + 0 \",,\" }"' > $@
+	$(LAUNCH) sh -c '$(BIN)/pm-queries -q $(CACHE_$*) -t $(THREADS) | $(BIN)/pm-view -q --check | sed "s/.*whole, \([0-9]*\) .*/name,r,g,b\nsearches,\1,,/"' > $@
 
-$(ACCURACY)/powers.csv: scripts/powers.awk | $(ACCURACY)
-	$(LAUNCH) awk -f scripts/powers.awk > $@
+$(ACCURACY)/powers.csv: $(call made_with,PROGRAMS) | $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-sweep derive powers -o $@
 
 $(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
-	$(LAUNCH) awk -v mean=1 -f scripts/powers.awk $< > $@
+	$(LAUNCH) $(BIN)/pm-sweep derive mean $< -o $@
 
 $(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv $(call made_with,PROGRAMS)
-	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | awk -v mean=1 -f scripts/powers.awk -' > $@
+	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | $(BIN)/pm-sweep derive mean -' > $@

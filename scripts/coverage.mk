@@ -17,7 +17,7 @@ COVERAGE_tiled-hilbert := --window 400 --warm-up 600
 COVERAGE_SIZE_tiled-hilbert := --size 200x200 --tile 10
 
 coverage: out/coverage.csv ## How often intervals of samples hold the truth, over 1,000 seeds: out/coverage.csv
-	@awk -f scripts/coverage.awk $<
+	@$(BIN)/pm-sweep derive coverage $<
 	@cmp -s $< scripts/coverage.csv || echo 'The report shows other numbers: cp $< scripts/coverage.csv'
 
 out/coverage/map.pmp: $(call made_with,PROGRAMS)

@@ -12,11 +12,11 @@ FPS := 1
 FRONTIER_CHARTS := $(foreach photons,100000 450000 4000000,out/frontier/$(photons).svg out/frontier/$(photons)-compact.svg)
 
 frontier: $(FRONTIER_CHARTS) ## Bytes on chip against total traffic, every order (an hour with -j2; SHARE=64: half of it)
-	@$(if $(BUDGET),awk -v budget=$(BUDGET) -v fps=$(FPS) -f scripts/budget.awk,echo 'Charts: $^' && awk -f scripts/least.awk) out/frontier/points.csv
+	@$(if $(BUDGET),$(BIN)/pm-sweep derive budget --with budget=$(BUDGET) --with fps=$(FPS),echo 'Charts: $^' && $(BIN)/pm-sweep derive least) out/frontier/points.csv
 
 # What was simulated in full is only of use at the same size.
-out/frontier/points.csv: $(if $(filter 512x512,$(FRONTIER_SIZE)),out/full.csv) out/frontier.csv scripts/frontier.awk $(call made_with,FRONTIER_SIZE REPORTING)
-	awk -f scripts/frontier.awk $(filter %.csv,$^) > $@
+out/frontier/points.csv: $(if $(filter 512x512,$(FRONTIER_SIZE)),out/full.csv) out/frontier.csv $(call made_with,FRONTIER_SIZE REPORTING)
+	$(BIN)/pm-sweep derive frontier $(filter %.csv,$^) -o $@
 
 # Records of 44 bytes, and of 9 where an order has them.
 frontier_of = --only photons=$1 --only best=yes --only record=$2 --reference scripts/paper-frontier.csv

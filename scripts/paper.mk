@@ -13,21 +13,21 @@ paper: out/paper/report.html ## The paper's tables and figures again, sampled, i
 out/paper/report.html: scripts/report.toml $(PAPER_DATA) $(PAPER_PICTURES) $(wildcard scripts/paper-*.csv) $(call made_with,REPORTING)
 	pm-chart -q --page $< -o $@
 
-out/paper/table1.csv: scripts/paper-table1.csv out/table1.csv scripts/table1.awk
+out/paper/table1.csv: scripts/paper-table1.csv out/table1.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	@awk -f scripts/csv.awk -f scripts/table1.awk scripts/paper-table1.csv out/table1.csv > $@
+	@$(BIN)/pm-sweep derive table1 scripts/paper-table1.csv out/table1.csv -o $@
 
-out/paper/storage.csv: out/storage.csv scripts/frontier.awk
+out/paper/storage.csv: out/storage.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	@awk -f scripts/frontier.awk $< > $@
+	@$(BIN)/pm-sweep derive frontier $< -o $@
 
-out/paper/cheapest.csv: out/pictures.csv scripts/cheapest.awk
+out/paper/cheapest.csv: out/pictures.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	@awk -f scripts/cheapest.awk $< > $@
+	@$(BIN)/pm-sweep derive cheapest $< -o $@
 
-out/paper/sampling.csv: out/sampling.csv scripts/sampled.awk
+out/paper/sampling.csv: out/sampling.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	@awk -f scripts/csv.awk -f scripts/sampled.awk $< > $@
+	@$(BIN)/pm-sweep derive sampled $< -o $@
 
 # What pictures are compared with: many photons, many neighbours, many rays, another seed.
 out/references/cornell.exr out/references/cornell.base.exr &: $(call made_with,PROGRAMS)
@@ -48,18 +48,16 @@ out/references/wall.exr out/references/corner.exr: out/references/%.exr: out/str
 	@test -s $@
 
 # The diffuse box, and the same with every surface as glossy as not.
-out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scenes/cornell-diffuse.obj scenes/cornell-diffuse.mtl
+out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scenes/cornell-diffuse.obj scenes/cornell-diffuse.mtl scripts/scenes/box-glossy.mtl
 	@mkdir -p $(@D)
-	@awk -v glossy=$(filter glossy,$*) 'glossy && /^Kd .*[1-9]/ { print "Kd", $$2 * .6, $$3 * .6, $$4 * .6; print "Ks .3 .3 .3\nNs 20\nillum 2"; lit = 1; next } \
-	    lit && /^illum/ { lit = 0; next } { print }' scenes/cornell-diffuse.mtl > out/scenes/box-$*.mtl
+	@cp $(if $(filter glossy,$*),scripts/scenes/box-glossy.mtl,scenes/cornell-diffuse.mtl) out/scenes/box-$*.mtl
 	@cp scenes/cornell-diffuse.camera.toml out/scenes/box-$*.camera.toml
 	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
 
 # What the paper says, and what we find.
-out/paper/claims.csv: scripts/claims.csv scripts/claims.awk $(shell awk -v list=1 -f scripts/csv.awk -f scripts/claims.awk scripts/claims.csv)
+out/paper/claims.csv: scripts/claims.csv $(if $(wildcard $(BIN)/pm-sweep),$(shell $(BIN)/pm-sweep derive claims --with list=1 scripts/claims.csv)) $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	@awk -f scripts/csv.awk -f scripts/claims.awk $< > $@.part
-	@mv $@.part $@
+	@$(BIN)/pm-sweep derive claims $< -o $@
 
 # The same in full, in a folder of its own where nothing is cut into windows or thinned; what there is stays, so that it may be
 # stopped and go on.
@@ -68,7 +66,7 @@ paper-exact: programs ## The same with nothing sampled: a working day, point by 
 	@mkdir -p $(EXACT)/scripts/sweeps
 	@cp -pr Makefile scenes $(EXACT) && cp -p $(wildcard scripts/*.*) $(EXACT)/scripts
 	@for table in scripts/sweeps/*.csv; do \
-	    awk -f scripts/exact.awk $$table > $(EXACT)/new && { cmp -s $(EXACT)/new $(EXACT)/$$table || cp $(EXACT)/new $(EXACT)/$$table; } || exit 1; \
+	    $(BIN)/pm-sweep derive exact $$table > $(EXACT)/new && { cmp -s $(EXACT)/new $(EXACT)/$$table || cp $(EXACT)/new $(EXACT)/$$table; } || exit 1; \
 	done
 	@ln -sfn $(CURDIR)/target $(EXACT)/target
 	$(MAKE) -C $(EXACT) CARGO=true paper

@@ -8,8 +8,8 @@ export STRUCTURE_SHARE STRUCTURE_SIZE
 structures: out/structures/scanline.svg out/structures/hilbert.svg out/structures/table.txt ## Every photon map: Figure 8 and Table 1 of the paper (-j2: twenty minutes)
 	@cat out/structures/table.txt
 
-out/structures/table.txt: out/structures.csv scripts/structures-table.awk $(call made_with,STRUCTURE_SHARE REPORTING)
-	awk -F, -v share=$(STRUCTURE_SHARE) -f scripts/structures-table.awk $< > $@
+out/structures/table.txt: out/structures.csv $(call made_with,STRUCTURE_SHARE REPORTING)
+	$(BIN)/pm-sweep derive structures --with share=$(STRUCTURE_SHARE) $< -o $@
 
 out/structures/scanline.svg out/structures/hilbert.svg: out/structures/%.svg: out/structures.csv $(call made_with,STRUCTURE_SHARE REPORTING)
 	pm-chart -q $< -x line -y bytes_per_query --error bytes_per_query_error --by map --only order=$* --x-scale log2 --y-scale log10 --x-label 'bytes of a line' \

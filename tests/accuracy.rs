@@ -2,16 +2,14 @@
 
 use crate::support::Folder;
 
-/// The script that judges, and what it knows.
-const FILES: [&str; 2] = ["accuracy.awk", "accuracy.csv"];
+/// What is known.
+const KNOWN: &str = "accuracy.csv";
 
 /// A folder with rows of experiments that are near enough to what is known here.
 fn folder() -> Folder {
     let folder = Folder::new();
-    for name in FILES {
-        let path = format!("{}/../../scripts/{name}", env!("CARGO_MANIFEST_DIR"));
-        folder.write(name, std::fs::read(path).expect("a script"));
-    }
+    let path = format!("{}/../../scripts/{KNOWN}", env!("CARGO_MANIFEST_DIR"));
+    folder.write(KNOWN, std::fs::read(path).expect("a table"));
     folder.write(
         "known.csv",
         "experiment,part,what,r,g,b,se_r,se_g,se_b,tolerance,from\n\
@@ -34,8 +32,8 @@ fn wall(folder: &Folder, red: f64) {
 
 /// Exit code and table.
 fn judged(folder: &Folder) -> (i32, String) {
-    let outcome = folder.sh("awk -f accuracy.awk known.csv wall.csv flux.csv few.csv many.csv");
-    assert_eq!(outcome.stderr, "");
+    let outcome = folder.run("pm-sweep derive accuracy known.csv wall.csv flux.csv few.csv many.csv");
+    assert_eq!(outcome.stderr.is_empty(), outcome.code == 0, "{}", outcome.stderr);
     (outcome.code, outcome.text().to_owned())
 }
 

@@ -152,14 +152,11 @@ fn mistakes_in_a_table_are_named_with_their_line() {
 #[test]
 fn every_claim_of_the_paper_has_a_verdict() {
     let folder = workshop();
-    let awk = |list: &str| {
-        let mut command = Command::new("awk");
-        command.args(["-v", list, "-f", "scripts/csv.awk", "-f", "scripts/claims.awk", "scripts/claims.csv"]);
-        command.current_dir(folder.path("."));
-        let output = command.output().expect("awk runs");
-        (output.status.success(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    let judge = |settings: &str| {
+        let outcome = folder.run(&format!("pm-sweep derive claims {settings} scripts/claims.csv"));
+        (outcome.code == 0, outcome.text().to_owned(), outcome.stderr)
     };
-    let (listed, files, _) = awk("list=1");
+    let (listed, files, _) = judge("--with list=1");
     assert!(listed && files.lines().count() > 50, "{files}");
     let columns = ["bytes_fetched", "bytes_per_query", "fetches_per_query", "fetches_per_block", "reads_per_query"];
     let columns = [&columns[..], &["queries", "blocks", "blocks_unreferenced"]].concat();
@@ -178,7 +175,7 @@ fn every_claim_of_the_paper_has_a_verdict() {
         fs::create_dir_all(folder.path(file).parent().unwrap()).unwrap();
         folder.write(file, &rows);
     }
-    let (done, table, why) = awk("list=");
+    let (done, table, why) = judge("");
     assert!(done, "{why}");
     let claims = table.lines().skip(1).count();
     assert_eq!(
@@ -192,7 +189,7 @@ fn every_claim_of_the_paper_has_a_verdict() {
     }
     // A result that is missing is no verdict.
     fs::remove_file(folder.path(files.lines().next().unwrap())).unwrap();
-    assert!(!awk("list=").0);
+    assert!(!judge("").0);
 }
 
 /// Sweeps and claims name one another rightly: what a claim needs is a point of a sweep.

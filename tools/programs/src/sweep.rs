@@ -5,6 +5,7 @@ mod fingerprint;
 mod hold;
 mod join;
 mod pipe;
+mod place;
 mod row;
 mod rules;
 mod stack;
@@ -46,6 +47,8 @@ enum Command {
     Until(Box<until::Args>),
     /// Make a table of results, or judge them: see `pm-sweep derive --list`
     Derive(derive::Args),
+    /// Write a scene in another unit and at another place
+    Place(place::Args),
     /// Print which sources the programs were built from, as variables for make
     Fingerprint,
     /// Take a folder for a process until its end, or say who has it
@@ -64,6 +67,7 @@ pub fn run(args: Args, _: &Typed) -> anyhow::Result<()> {
         Command::Stack(args) => stack::run(&args),
         Command::Until(args) => until::run(&args),
         Command::Derive(args) => derive::run(&args),
+        Command::Place(args) => place::run(&args),
         Command::Fingerprint => fingerprint::run(),
         Command::Hold(args) => hold::run(&args),
     }
