@@ -1,10 +1,14 @@
 //! Does a table of experiments become its rows: each once, whole or not at all, and nothing believed that is not there?
 
+mod again;
+mod folder;
+mod mistakes;
+
 use crate::support::{Folder, PROGRAMS};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 const TABLE: &str = "\
 # Two orders, two k.
@@ -27,13 +31,22 @@ fn workshop() -> Folder {
     folder
 }
 
-/// `make` with these words; it builds nothing.
-fn make(folder: &Folder, words: &str) -> Output {
+/// `make` with these words and these variables in its environment; it builds nothing.
+fn command(folder: &Folder, words: &str, variables: &[(&str, &str)]) -> Command {
     let words = words.split_whitespace();
     let mut command = Command::new("make");
     command.args(["CARGO=true", "THREADS=1"]).args(words).current_dir(folder.path("."));
     // A make that runs these tests must not hand its own options on.
-    command.env_remove("MAKEFLAGS").env_remove("MFLAGS").output().expect("make runs")
+    command.env_remove("MAKEFLAGS").env_remove("MFLAGS").envs(variables.iter().copied()).stdin(Stdio::null());
+    command
+}
+
+fn make_with(folder: &Folder, words: &str, variables: &[(&str, &str)]) -> Output {
+    command(folder, words, variables).output().expect("make runs")
+}
+
+fn make(folder: &Folder, words: &str) -> Output {
+    make_with(folder, words, &[])
 }
 
 fn said(output: &Output) -> String {
@@ -130,22 +143,6 @@ fn a_point_that_fails_leaves_no_row_and_the_others_theirs() {
     let there = |name: &str| folder.path("out/my").join(name).exists();
     assert!(there("scanline.10.csv") && there("tiled-hilbert.10.csv"), "{}", said(&outcome));
     assert!(!there("scanline.none.csv") && !folder.path("out/my.csv").exists());
-}
-
-#[test]
-fn mistakes_in_a_table_are_named_with_their_line() {
-    let folder = workshop();
-    let fails = |table: &str, why: &str| {
-        folder.write("my.csv", table);
-        let outcome = make(&folder, "sweep SWEEP=my.csv");
-        assert!(!outcome.status.success(), "{table}");
-        assert!(said(&outcome).contains(why), "{why}: {}", said(&outcome));
-    };
-    fails("order,photons\nzigzag,-n 500\n", "my.csv:2: `zigzag` is no order");
-    fails("order,photons\nscanline,-n 500,x\n", "my.csv:2: has 3 cells");
-    fails("point,order\na,scanline tiled\n", "my.csv:2: the point a stands twice");
-    fails("order,queries\nscanline,--size $(NO_SUCH)\n", "my.csv:2: $(NO_SUCH) has no value");
-    fails("order,queries\n", "there is no point in");
 }
 
 /// With results that are all 1, every sentence of the paper still gets a verdict.
