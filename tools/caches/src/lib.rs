@@ -1,7 +1,7 @@
 //! Simulated caches: what a trace of accesses costs in memory traffic.
 //!
-//! A [`Simulation`] listens to a trace and runs any number of [`CacheConfig`]s in one reading of it; each becomes a
-//! [`Row`] of exact counts. How they count:
+//! A [`Simulation`] listens to a trace and runs any number of [`CacheConfig`]s in one reading of it; each gets its
+//! [`CacheCounts`], exact. How they count:
 //!
 //! * A **record** access is one access of the trace: one record, whole, wherever it lies. A **line access** is the part of
 //!   it in one line. A record that spans two lines is two line accesses, each a hit or a miss of its own. A record of
@@ -24,53 +24,45 @@
 //! With [`Lanes`] in front, several searches are in flight at a time over the same cache. [`Windows`] runs each window of a
 //! sampled trace through caches that begin empty, and estimates what the whole would have cost.
 //!
-//! To add a policy of sets and ways, implement `Replacement`; for anything else, `CacheModel`. Either is one file, a name in
-//! [`Policy`] and a line where a simulation makes its models.
+//! # To add a policy
+//!
+//! A policy is one file beside those in `policies`, and one line in [`policies()`]; from outside of the crate it is
+//! `policies().with(&MyPolicy)`. In the file:
+//!
+//! * its state, as a [`Replacement`]: what it does when a line is used, when one comes in, and when a full set has to give
+//!   one up. It sees every line access. Where a use of the line used last makes no difference it may say so
+//!   ([`Replacement::REPEATS_MATTER`]), and is spared most of them;
+//! * a [`Policy`] with its word, what is said of it, its model, and its definition: what it does in the plainest way there
+//!   is, which the tests hold the model against. What is usual has defaults; a policy that cannot have any number of ways, or
+//!   draws random numbers, or is no [`Replacement`] at all, says so there.
+//!
+//! That is all: it can be chosen (`64K,8,64,WORD`), it is in the help and in the errors of `pm-cachesim`, in the table of the
+//! README (which a test holds to be this registry's), and in every test of [`trial`].
 
 mod config;
-mod curve;
+mod curves;
+mod findings;
 mod lanes;
 mod lines;
-mod lru_stack;
-mod measures;
-mod miss_stream;
 mod misses;
-mod model;
-mod optimum;
-mod policy;
-mod records;
-mod replacement;
-mod results;
-mod row;
-mod set_associative;
-mod shards;
+mod models;
+#[cfg(test)]
+mod plain_lru;
+mod policies;
 mod simulation;
-mod stack_distance;
-mod uncached;
-mod warmth;
+pub mod trial;
 mod windows;
-mod working_set;
 
-#[cfg(test)]
-mod curve_tests;
-#[cfg(test)]
-mod measure_tests;
-#[cfg(test)]
-mod shards_tests;
-#[cfg(test)]
-mod tests;
-#[cfg(test)]
-mod windows_tests;
-
-pub use config::{CacheConfig, ConfigError, SetIndex, Ways};
-pub use curve::{Curve, TraceCounts};
+pub use config::{CacheConfig, ConfigError, SetIndex, UnknownWays, Ways};
+pub use curves::{Curve, Estimate, LEAST_MODEL, SampledCurve};
+pub use findings::{
+    AskedCounts, CacheCounts, Distribution, Findings, Measures, RecordCounts, ResultMemory, SECTOR_BYTES, SpanRule,
+    TraceCounts, WorkingSets,
+};
 pub use lanes::{LaneSource, Lanes};
-pub use measures::{Findings, Measures, Span};
-pub use miss_stream::{MissStream, MissStreamError};
-pub use policy::{Policy, UnknownPolicy};
-pub use results::{ResultMemory, SECTOR_BYTES};
-pub use row::{More, RecordCounts, Row};
-pub use shards::{Estimate, LEAST_MODEL, SampledCurve};
+pub use lines::{Attributes, LineChunk, LineSpace};
+pub use misses::{MissStream, MissStreamError, Misses};
+pub use models::{Answer, CacheModel, CacheOnTrace, LineCounts, Modelled, Replacement};
+pub use policies::{ChosenPolicy, Policy, UnknownPolicy, WaysNeeded, policies};
 pub use simulation::{Simulation, SimulationError};
-pub use windows::{Counts, WindowError, WindowedRow, Windows};
-pub use working_set::{Distribution, WorkingSets};
+pub use windows::{WindowCounts, WindowError, WindowedCounts, Windows};

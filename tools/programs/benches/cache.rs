@@ -1,7 +1,7 @@
 //! How fast are the simulated caches, as ratios to the plainest loop that does the job?
 //!
-//! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to place, and a
-//! doubly linked list of places. For sets, it is the blocks of each set in order of use, all of them searched. What is
+//! The yardstick is a fully associative LRU of one size over block numbers in memory: a table from block to node, and a
+//! doubly linked list of nodes. For sets, it is the blocks of each set in order of use, all of them searched. What is
 //! measured starts from accesses to byte offsets, as a trace is replayed. Rounds are interleaved and medians of processor
 //! time compared, so that a busy machine slows both alike. Both must count the same.
 //!
@@ -12,7 +12,7 @@
 mod common;
 
 use common::{cpu_time, median, morton, surface_point};
-use pm_caches::{CacheConfig, Measures, Simulation};
+use pm_caches::{CacheConfig, Measures, Simulation, policies};
 use pm_formats::trace::{Access, Coding, Region, TraceSink, lay_out};
 use pm_random::Random;
 use std::hint::black_box;
@@ -69,8 +69,11 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
         ("curve from 0.1 of the lines", Box::new(|| curves(offsets, &[128], Some(0.1)))),
         ("curve from 0.01 of the lines", Box::new(|| curves(offsets, &[128], Some(0.01)))),
     ];
-    for policy in ["fifo", "clock", "random", "plru", "min", "min-bypass"] {
-        let cache = format!("128K,full,128,{policy}");
+    let policies = policies();
+    let words = || policies.iter().filter(|policy| policy.keeps_lines()).map(|policy| policy.word());
+    // Fully associative LRU stands above.
+    for word in words().filter(|word| *word != "lru") {
+        let cache = format!("128K,full,128,{word}");
         let name = String::leak(cache.clone());
         contestants.push((name, Box::new(move || simulate(offsets, &[&cache]))));
     }
@@ -79,8 +82,8 @@ fn measure(nodes: &[u32], blocks: &[u32], rounds: usize) {
         let name = |text: String| &*String::leak(text);
         let mut contestants: Vec<Contestant> =
             vec![(name(format!("yardstick: {ways} ways in order")), Box::new(move || naive_sets(blocks, LINES, ways)))];
-        for policy in ["lru", "fifo", "clock", "random", "plru", "min", "lru,hash"] {
-            let cache = format!("128K,{ways},128,{policy}");
+        for word in words().chain(["lru,hash"]) {
+            let cache = format!("128K,{ways},128,{word}");
             contestants.push((name(cache.clone()), Box::new(move || simulate(offsets, &[&cache]))));
         }
         compare(blocks.len(), rounds, &contestants, &[(0, 1)]);
@@ -182,10 +185,10 @@ fn naive_sets(blocks: &[u32], capacity: usize, ways: usize) -> u64 {
     misses
 }
 
-/// A table from block to place, and a doubly linked list of places.
+/// A table from block to node, and a doubly linked list of nodes.
 struct List {
     table: Vec<u32>,
-    places: Vec<Place>,
+    nodes: Vec<Node>,
     capacity: usize,
     newest: u32,
     oldest: u32,
@@ -193,7 +196,7 @@ struct List {
 }
 
 #[derive(Clone, Copy)]
-struct Place {
+struct Node {
     block: u32,
     newer: u32,
     older: u32,
@@ -203,49 +206,49 @@ const NONE: u32 = u32::MAX;
 
 impl List {
     fn new(blocks: usize, capacity: usize) -> Self {
-        let (table, places) = (vec![NONE; blocks], Vec::with_capacity(capacity));
-        Self { table, places, capacity, newest: NONE, oldest: NONE, misses: 0 }
+        let (table, nodes) = (vec![NONE; blocks], Vec::with_capacity(capacity));
+        Self { table, nodes, capacity, newest: NONE, oldest: NONE, misses: 0 }
     }
 
     #[inline(always)]
     fn touch(&mut self, block: u32) {
-        let mut place = self.table[block as usize];
-        if place == self.newest && place != NONE {
+        let mut node = self.table[block as usize];
+        if node == self.newest && node != NONE {
             return;
         }
-        if place != NONE {
-            let Place { newer, older, .. } = self.places[place as usize];
-            self.places[newer as usize].older = older;
+        if node != NONE {
+            let Node { newer, older, .. } = self.nodes[node as usize];
+            self.nodes[newer as usize].older = older;
             if older == NONE {
                 self.oldest = newer;
             } else {
-                self.places[older as usize].newer = newer;
+                self.nodes[older as usize].newer = newer;
             }
         } else {
             self.misses += 1;
-            if self.places.len() < self.capacity {
-                place = self.places.len() as u32;
-                self.places.push(Place { block, newer: NONE, older: NONE });
+            if self.nodes.len() < self.capacity {
+                node = self.nodes.len() as u32;
+                self.nodes.push(Node { block, newer: NONE, older: NONE });
             } else {
-                place = self.oldest;
-                let old = self.places[place as usize];
+                node = self.oldest;
+                let old = self.nodes[node as usize];
                 self.table[old.block as usize] = NONE;
                 self.oldest = old.newer;
                 match self.oldest {
                     NONE => self.newest = NONE,
-                    o => self.places[o as usize].older = NONE,
+                    o => self.nodes[o as usize].older = NONE,
                 }
-                self.places[place as usize].block = block;
+                self.nodes[node as usize].block = block;
             }
-            self.table[block as usize] = place;
+            self.table[block as usize] = node;
         }
-        self.places[place as usize].newer = NONE;
-        self.places[place as usize].older = self.newest;
+        self.nodes[node as usize].newer = NONE;
+        self.nodes[node as usize].older = self.newest;
         match self.newest {
-            NONE => self.oldest = place,
-            n => self.places[n as usize].newer = place,
+            NONE => self.oldest = node,
+            n => self.nodes[n as usize].newer = node,
         }
-        self.newest = place;
+        self.newest = node;
     }
 }
 

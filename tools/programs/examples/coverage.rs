@@ -5,11 +5,11 @@
 //! is what `pm-queries --only-tiles`, `pm-cachesim` and `pm-sweep until` do: the same choice, estimate, interval and rule.
 
 use clap::Parser;
-use pm_caches::{CacheConfig, Measures, Simulation, WindowedRow, Windows};
+use pm_caches::{CacheConfig, Measures, Simulation, WindowedCounts, Windows};
 use pm_formats::trace::{Access, Region, TraceReader, TraceSink};
 use pm_programs::cli::{self, Typed, Voice, open_input, usage};
 use pm_report::{Column, Format, Table, Value};
-use pm_sampling::windows::Choice;
+use pm_sampling::windows::StratifiedCells;
 use pm_sampling::{CONFIDENCE, Ratio, Tuning, student_quantile};
 use std::collections::VecDeque;
 use std::io::Write as _;
@@ -165,7 +165,7 @@ impl TraceSink for Cells {
 /// The whole, cut into cells.
 struct Population {
     /// What each cell costs as a window.
-    row: WindowedRow,
+    row: WindowedCounts,
     /// Fetches for each search of the whole.
     truth: f64,
     searches: u64,
@@ -190,7 +190,7 @@ struct Measured {
 impl Population {
     /// Searches of a cell, on average.
     fn a_cell(&self) -> f64 {
-        self.searches as f64 / self.row.counts.len() as f64
+        self.searches as f64 / self.row.windows.len() as f64
     }
 
     /// Windows that the share allows.
@@ -200,10 +200,10 @@ impl Population {
 
     /// What a sample tells.
     fn sample(&self, windows: u64, seed: u64, measured: &mut Measured) -> Ratio {
-        let cells = self.row.counts.len() as u64;
-        let choice = Choice::new(cells, windows.min(cells), seed);
-        let row = self.row.of_windows(choice.into_iter().flat_map(Choice::cells).map(|cell| cell as usize));
-        let windows = row.counts.len() as u64;
+        let cells = self.row.windows.len() as u64;
+        let choice = StratifiedCells::new(cells, windows.min(cells), seed);
+        let row = self.row.of_windows(choice.into_iter().flat_map(StratifiedCells::cells).map(|cell| cell as usize));
+        let windows = row.windows.len() as u64;
         measured.windows += windows as f64;
         measured.inexact += row.windows_inexact() as f64;
         measured.simulated += (row.queries_measured() + windows * self.warm_up as u64) as f64;

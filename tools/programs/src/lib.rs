@@ -2,6 +2,7 @@
 //!
 //! `README.md` beside this crate's folder is the map of the code.
 
+pub mod cachesim;
 pub mod chart;
 pub mod cli;
 pub mod map_args;

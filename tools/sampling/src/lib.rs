@@ -1,11 +1,13 @@
 //! What a sample tells of the whole: a ratio from one window of each stratum, and how far it may be off.
 
 mod ratio;
+mod spread;
 mod student;
 mod tuning;
 pub mod windows;
 
-pub use ratio::{Ratio, Spread};
+pub use ratio::Ratio;
+pub use spread::Spread;
 pub use student::{student_quantile, student_within};
 pub use tuning::{Missing, Round, Sample, Tuning};
 

@@ -10,7 +10,7 @@ use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{Header, Number, Query, RecordReader, RecordWriter, StageReport};
 use pm_programs::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input, usage};
 use pm_random::Random;
-use pm_sampling::windows::Every;
+use pm_sampling::windows::StratifiedStream;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -74,7 +74,7 @@ impl Sample {
     fn new(args: &Args) -> anyhow::Result<Self> {
         let one_of = |n: u32| OneOf { one_of: n.into(), seed: args.seed, next: 0 };
         if let (Some(every), Some(window)) = (args.every, args.window) {
-            let windows = Every::new(every, window, args.seed).ok_or_else(|| {
+            let windows = StratifiedStream::new(every, window, args.seed).ok_or_else(|| {
                 let less = (every / window).max(1).saturating_mul(window);
                 let more = less.saturating_add(window);
                 usage(format!("--every {every} is not a multiple of --window {window}: {less} or {more} would do"))

@@ -5,7 +5,7 @@ use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, StageReport};
 use pm_light::transport::{GatherRays, Piece, RayCounts, RayPlan};
 use pm_orders::{Generative, Span};
-use pm_sampling::windows::{Choice, cell_of};
+use pm_sampling::windows::{StratifiedCells, cell_of};
 use std::ops::Range;
 
 /// The options that ask for a sample.
@@ -66,14 +66,14 @@ impl SampleArgs {
         let Some(n) = self.only_tiles else { return Ok(Sample::All) };
         let Some(length) = self.window else {
             let of = order.batch_count(size);
-            let choice = Choice::new(of, n, self.sample_seed).ok_or_else(|| {
+            let choice = StratifiedCells::new(of, n, self.sample_seed).ok_or_else(|| {
                 usage(format!("--only-tiles {n}: the picture has {of} batches (tiles or scanlines): give at most {of}"))
             })?;
             return Ok(Sample::Batches { chosen: choice.cells().collect(), of });
         };
         let plan = RayPlan::new(rays, order, threads, counts);
         let cells = plan.rays().div_ceil(length);
-        let choice = Choice::new(cells, n, self.sample_seed);
+        let choice = StratifiedCells::new(cells, n, self.sample_seed);
         if choice.is_none() && cells > 0 {
             let all = plan.rays();
             return Err(usage(format!(
@@ -81,7 +81,8 @@ impl SampleArgs {
             )));
         }
         // Where nothing is seen there are no windows, and an empty stream as without them.
-        let measured = choice.into_iter().flat_map(Choice::cells).map(|cell| cell_of(cell, length, plan.rays()));
+        let measured =
+            choice.into_iter().flat_map(StratifiedCells::cells).map(|cell| cell_of(cell, length, plan.rays()));
         Ok(Sample::Windows { measured: measured.collect(), plan, length, warm_up: self.warm_up })
     }
 }

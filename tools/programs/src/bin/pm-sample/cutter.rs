@@ -1,12 +1,12 @@
 //! Cuts windows out of a stream of queries as it passes, each with the queries before it for warm-up.
 
 use pm_formats::{BlockMeta, Query};
-use pm_sampling::windows::Every;
+use pm_sampling::windows::StratifiedStream;
 use std::collections::VecDeque;
 
 /// Takes queries in order and lets those of windows go.
 pub(crate) struct Cutter {
-    every: Every,
+    every: StratifiedStream,
     /// Queries before a window.
     warm_up: usize,
     /// The last of those that came, at most `warm_up`.
@@ -20,7 +20,7 @@ pub(crate) struct Cutter {
 }
 
 impl Cutter {
-    pub(crate) fn new(every: Every, warm_up: usize) -> Self {
+    pub(crate) fn new(every: StratifiedStream, warm_up: usize) -> Self {
         Self { every, warm_up, recent: VecDeque::new(), came: 0, stratum: 0, measured: 0, warm_ups: 0 }
     }
 

@@ -1,0 +1,43 @@
+//! What to find out besides the caches' own counts.
+
+use super::ResultMemory;
+
+/// What to find out in the same reading of the trace, besides the rows of the caches. By default nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measures {
+    /// Line sizes, in bytes, to find the miss curve of.
+    pub curves: Vec<u32>,
+    /// Share of the lines to find sampled curves from, of the same line sizes; above 0 and at most 1.
+    pub sampled: Option<f64>,
+    /// Find the exact curves beside the sampled ones.
+    pub exact_too: bool,
+    /// Run each cache's fully associative LRU twin along, to tell capacity misses from conflict misses.
+    pub split: bool,
+    /// DRAM page in bytes, a power of two, to count page switches.
+    pub page_bytes: Option<u64>,
+    /// Count the distinct lines of searches and batches.
+    pub working_sets: bool,
+    /// Count the traffic of results.
+    pub results: Option<ResultMemory>,
+    /// The rule for records that span lines.
+    pub span: SpanRule,
+}
+
+impl Measures {
+    /// Whether curves are to be exact: always, unless they are to be sampled and nothing else is said.
+    pub(crate) fn exact_curves(&self) -> bool {
+        self.sampled.is_none() || self.exact_too
+    }
+}
+
+pm_registry::choices! {
+    /// Which lines a record touches that does not lie in one.
+    #[derive(Debug, Default)]
+    pub enum SpanRule {
+        /// Every line it has a byte in
+        #[default]
+        Both = "both",
+        /// The line of its first byte, as simulators of single addresses count
+        First = "first",
+    }
+}

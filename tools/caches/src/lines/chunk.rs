@@ -1,0 +1,180 @@
+//! The line accesses of a stretch of the trace: records are cut where lines end.
+
+use super::space::Numbering;
+use super::{Accesses, Attributes, LineSpace, Shape};
+
+/// Which records are already cut into line accesses.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Resume {
+    records: usize,
+    /// Lines of the next record.
+    lines: u32,
+}
+
+/// How many line accesses there are in a chunk, roughly, before a record that spans many lines has to wait or is cut.
+const LONG_CHUNK: usize = 16384;
+
+/// Whether a chunk holds line accesses that repeat the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Repeats {
+    /// All of them: some model of the line size needs them.
+    Kept,
+    /// None within a stretch of records that waited together.
+    #[default]
+    LeftOut,
+}
+
+/// The line accesses of a stretch of the trace.
+///
+/// A line access *repeats* the one before if both are to the same line, for the same region, and of the same kind (one in
+/// seven in a tree walk). It hits, and changes neither recency, nor order of arrival, nor reference bits, nor dirtiness; so
+/// it is left out, unless a model of the line size says that [it matters](crate::CacheModel::repeats_matter). Where a
+/// stretch begins a repeat may be there all the same: models to which repeats do not matter count alike with and without
+/// them. It is left out of no *count*: [`accesses`](LineChunk::accesses) has them all.
+#[derive(Debug, Default)]
+pub struct LineChunk {
+    repeats: Repeats,
+    slots: Vec<u32>,
+    /// The attributes of each slot, or those that all have.
+    attributes: Vec<Attributes>,
+    /// Picks the attributes of a slot: all bits set, or none if all have the same. Most chunks of most traces read one
+    /// region.
+    attribute_mask: usize,
+    len: usize,
+    accesses: u64,
+    writes: bool,
+}
+
+/// Not a slot: there are fewer (`MAX_LINES` of the simulation).
+const NO_SLOT: u32 = u32::MAX;
+
+impl LineChunk {
+    /// An empty one.
+    pub(crate) fn new(repeats: Repeats) -> Self {
+        Self { repeats, ..Self::default() }
+    }
+
+    /// Replaces the content by the line accesses of `accesses` from `resume` on, and moves that on: past all records unless
+    /// some are so long that they would make a chunk without bounds. False if no records are left.
+    pub(crate) fn split(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) -> bool {
+        if resume.records == accesses.shapes.len() {
+            return false;
+        }
+        let kept = self.repeats == Repeats::Kept;
+        let short = match accesses.common {
+            Some(shape) => {
+                self.writes = shape.attributes().writes();
+                self.attributes.clear();
+                self.attributes.push(shape.attributes());
+                self.attribute_mask = 0;
+                match kept {
+                    false => self.pack::<false, false>(space, accesses, shape),
+                    true => self.pack::<false, true>(space, accesses, shape),
+                }
+            }
+            None => {
+                self.writes = accesses.shapes.iter().fold(false, |any, shape| any | shape.attributes().writes());
+                let least = 2 * accesses.shapes.len();
+                self.attributes.resize(self.attributes.len().max(least), Attributes::default());
+                self.attribute_mask = usize::MAX;
+                match kept {
+                    false => self.pack::<true, false>(space, accesses, Shape::default()),
+                    true => self.pack::<true, true>(space, accesses, Shape::default()),
+                }
+            }
+        };
+        if short {
+            resume.records = accesses.shapes.len();
+        } else {
+            self.split_long(space, accesses, resume);
+        }
+        true
+    }
+
+    /// The line accesses of all records, whose shapes are `MIXED` or all `common`, repeats among them if they are `KEPT`;
+    /// false if one spans more than two lines.
+    fn pack<const MIXED: bool, const KEPT: bool>(
+        &mut self,
+        space: &LineSpace,
+        accesses: &Accesses,
+        common: Shape,
+    ) -> bool {
+        let records = accesses.shapes.len();
+        self.slots.resize(self.slots.len().max(2 * records), 0);
+        let slots = &mut self.slots[..2 * records];
+        let of_slots = &mut self.attributes[..];
+        let numbering = if MIXED { Numbering::default() } else { space.regions[common.attributes().region()] };
+        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.attributes()), 0, 0);
+        for (&offset, &shape) in accesses.offsets.iter().zip(accesses.shapes) {
+            let shape = if MIXED { shape } else { common };
+            let attributes = shape.attributes();
+            let numbering = if MIXED { space.regions[attributes.region()] } else { numbering };
+            let (first, last) = numbering.ends(space.shift, offset, shape.len() & space.len_mask);
+            // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
+            // where the next one goes, and the place is taken or not.
+            slots[len] = first;
+            if MIXED {
+                of_slots[len] = attributes;
+            }
+            len += usize::from(KEPT || first != before.0 || (MIXED && attributes != before.1));
+            slots[len] = last;
+            if MIXED {
+                of_slots[len] = attributes;
+            }
+            len += usize::from(last != first);
+            before = (last, attributes);
+            extra += u64::from(last - first);
+            most |= last - first;
+        }
+        (self.len, self.accesses) = (len, records as u64 + extra);
+        most <= 1
+    }
+
+    /// The line accesses of records of any length, until the chunk is full.
+    #[cold]
+    fn split_long(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) {
+        self.slots.clear();
+        self.attributes.clear();
+        self.attribute_mask = usize::MAX;
+        while resume.records < accesses.shapes.len() && self.slots.len() < LONG_CHUNK {
+            let at = resume.records;
+            let (shape, attributes) = (accesses.shapes[at], accesses.shapes[at].attributes());
+            let (first, last) = space.ends(accesses.offsets[at], shape);
+            let from = first + resume.lines;
+            let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
+            self.slots.extend(from..=to);
+            self.attributes.resize(self.slots.len(), attributes);
+            *resume = match to == last {
+                true => Resume { records: at + 1, lines: 0 },
+                false => Resume { records: at, lines: to - first + 1 },
+            };
+        }
+        self.len = self.slots.len();
+        self.accesses = self.len as u64;
+    }
+
+    /// Slots of the line accesses.
+    #[must_use]
+    pub fn slots(&self) -> &[u32] {
+        &self.slots[..self.len]
+    }
+
+    /// Region and kind of the line access at an index of [`slots`](LineChunk::slots).
+    #[inline]
+    #[must_use]
+    pub fn attributes(&self, index: usize) -> Attributes {
+        self.attributes[index & self.attribute_mask]
+    }
+
+    /// Number of line accesses, repeats included.
+    #[must_use]
+    pub fn accesses(&self) -> u64 {
+        self.accesses
+    }
+
+    /// Whether any of the records writes.
+    #[must_use]
+    pub fn writes(&self) -> bool {
+        self.writes
+    }
+}

@@ -1,0 +1,94 @@
+//! A number for each line of the traced memory, without gaps.
+
+use pm_formats::trace::Region;
+
+use super::Shape;
+use crate::SpanRule;
+
+/// Numbers the lines of all regions without gaps, so that a model can keep a table indexed by line.
+///
+/// The number is called a *slot*. Gaps between regions, however wide, have no slots; lines that two regions share (which
+/// takes lines longer than the 4 KiB that keep regions apart) have one.
+#[derive(Debug)]
+pub struct LineSpace {
+    /// log2 of the line in bytes.
+    pub(super) shift: u32,
+    pub(super) regions: Vec<Numbering>,
+    slots: u64,
+    /// Bits of a record's length that count: all, or none if only the line of its first byte is touched.
+    pub(super) len_mask: u32,
+}
+
+/// How the lines of a region are numbered.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Numbering {
+    /// First byte address.
+    base: u64,
+    /// Line number minus slot, modulo 2^64.
+    delta: u64,
+}
+
+impl Numbering {
+    /// Slots of the first and the last line of a record. One of length zero lies in the line of its offset.
+    #[inline]
+    pub(super) fn ends(self, shift: u32, offset: u64, len: u32) -> (u32, u32) {
+        let first = self.base + offset;
+        let last = first + u64::from(len.max(1) - 1);
+        let slot = |address: u64| (address >> shift).wrapping_sub(self.delta) as u32;
+        (slot(first), slot(last))
+    }
+}
+
+impl LineSpace {
+    /// Slots for lines of `line_bytes` (a power of two). No region may reach past the last address.
+    pub(crate) fn new(regions: &[Region], line_bytes: u32) -> Self {
+        let shift = line_bytes.ilog2();
+        let mut by_base: Vec<usize> = (0..regions.len()).filter(|&r| regions[r].size > 0).collect();
+        by_base.sort_by_key(|&r| regions[r].base);
+
+        let mut numberings: Vec<Numbering> = regions.iter().map(|r| Numbering { base: r.base, delta: 0 }).collect();
+        let (mut slots, mut delta, mut previous) = (0_u64, 0_u64, None);
+        for r in by_base {
+            let first = regions[r].base >> shift;
+            let last = (regions[r].base + (regions[r].size - 1)) >> shift;
+            if previous.is_none_or(|p| first > p) {
+                delta = first.wrapping_sub(slots);
+            }
+            // Slots of a shared line, or of a region within another, are already there.
+            slots = slots.max(last.wrapping_sub(delta) + 1);
+            previous = previous.max(Some(last));
+            numberings[r].delta = delta;
+        }
+        Self { shift, regions: numberings, slots, len_mask: u32::MAX }
+    }
+
+    /// The same with another rule for records that span lines.
+    pub(crate) fn with_span(self, span: SpanRule) -> Self {
+        Self { len_mask: if span == SpanRule::Both { u32::MAX } else { 0 }, ..self }
+    }
+
+    /// Slots of the first and the last line that a record touches.
+    #[inline]
+    pub(crate) fn ends(&self, offset: u64, shape: Shape) -> (u32, u32) {
+        self.regions[shape.attributes().region()].ends(self.shift, offset, shape.len() & self.len_mask)
+    }
+
+    /// Line in bytes.
+    #[must_use]
+    pub fn line_bytes(&self) -> u32 {
+        1 << self.shift
+    }
+
+    /// Number of slots.
+    #[must_use]
+    pub fn slots(&self) -> u64 {
+        self.slots
+    }
+
+    /// The line number (byte address / line bytes) of a slot that an access to `region` touched.
+    #[inline]
+    #[must_use]
+    pub fn line(&self, region: usize, slot: u32) -> u64 {
+        u64::from(slot).wrapping_add(self.regions[region].delta)
+    }
+}

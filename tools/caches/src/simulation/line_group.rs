@@ -1,0 +1,165 @@
+//! The caches of one line size, which share its line accesses.
+
+use pm_formats::trace::Region;
+
+use super::error::MAX_LINES;
+use crate::curves::{CurveCollector, Shards};
+use crate::findings::{SearchStart, WorkingSetCounter};
+use crate::lines::{Accesses, LineChunk, LineSpace, Repeats, Resume};
+use crate::misses::{Misses, PageSwitches};
+use crate::models::{CacheModel, CacheOnTrace};
+use crate::{CacheConfig, Measures, Policy, SimulationError};
+
+/// The line accesses of one line size and the caches they run through.
+pub(super) struct LineGroup {
+    pub(super) space: LineSpace,
+    chunk: LineChunk,
+    /// Line accesses that count.
+    pub(super) accesses: u64,
+    pub(super) models: Vec<Running>,
+    misses: Misses,
+    pub(super) curve: Option<CurveCollector>,
+    pub(super) shards: Option<Shards>,
+    pub(super) working_sets: Option<WorkingSetCounter>,
+    /// Region and line number of each fetch of the first of all caches, if somebody collects them.
+    pub(super) fetched: Option<Vec<(u16, u64)>>,
+}
+
+/// A model, and the caches that it answers for.
+pub(super) struct Running {
+    pub(super) model: Box<dyn CacheModel>,
+    pub(super) caches: Vec<CacheOfModel>,
+}
+
+/// One cache that a model answers for.
+pub(super) struct CacheOfModel {
+    /// Index into the configurations.
+    pub(super) config: usize,
+    /// Index into the model's counts.
+    pub(super) counts: usize,
+    pub(super) pages: Option<PageSwitches>,
+}
+
+impl LineGroup {
+    /// Those of `configs` whose indices are `members`, all of one line size.
+    pub(super) fn new(
+        line_bytes: u32,
+        members: &[usize],
+        configs: &[CacheConfig],
+        regions: &[Region],
+        measures: &Measures,
+    ) -> Result<Self, SimulationError> {
+        let space = LineSpace::new(regions, line_bytes).with_span(measures.span);
+        let slots = space.slots();
+        if slots > MAX_LINES {
+            return Err(SimulationError::TooManyLines { lines: slots, line_bytes });
+        }
+        let models = models(&space, members, configs, regions.len(), measures)?;
+        let needed = models.iter().any(|running| running.model.repeats_matter());
+        let curve = measures.curves.contains(&line_bytes);
+        Ok(Self {
+            chunk: LineChunk::new(if needed { Repeats::Kept } else { Repeats::LeftOut }),
+            accesses: 0,
+            models,
+            misses: Misses::new(measures.page_bytes.is_some()),
+            curve: (curve && measures.exact_curves()).then(|| CurveCollector::new(slots)),
+            shards: measures.sampled.filter(|_| curve).map(|rate| Shards::new(slots, rate)),
+            working_sets: measures.working_sets.then(|| WorkingSetCounter::new(slots)),
+            fetched: None,
+            space,
+        })
+    }
+
+    /// From now on, what the first of all caches fetches is kept.
+    pub(super) fn keep_fetched(&mut self) {
+        self.fetched = Some(vec![]);
+        self.misses = Misses::new(true);
+    }
+
+    /// Simulates accesses, among which searches begin at `starts`.
+    pub(super) fn run(&mut self, accesses: &Accesses, counted: bool, starts: &[SearchStart]) {
+        if let Some(sets) = &mut self.working_sets
+            && counted
+        {
+            sets.run(&self.space, accesses, starts);
+        }
+        let mut resume = Resume::default();
+        while self.chunk.split(&self.space, accesses, &mut resume) {
+            if counted {
+                self.accesses += self.chunk.accesses();
+            }
+            for Running { model, caches } in &mut self.models {
+                self.misses.clear();
+                model.run(&self.space, &self.chunk, counted, &mut self.misses);
+                follow(&self.space, &self.chunk, &self.misses, caches, self.fetched.as_mut(), counted);
+            }
+            if let Some(curve) = &mut self.curve {
+                curve.run(self.space.slots(), &self.chunk, counted);
+            }
+            if let Some(shards) = &mut self.shards {
+                shards.run(&self.chunk, counted);
+            }
+        }
+    }
+}
+
+/// The models that answer for all members, policy by policy.
+fn models(
+    space: &LineSpace,
+    members: &[usize],
+    configs: &[CacheConfig],
+    regions: usize,
+    measures: &Measures,
+) -> Result<Vec<Running>, SimulationError> {
+    let mut by_policy: Vec<(&dyn Policy, Vec<usize>)> = vec![];
+    for &member in members {
+        let policy = configs[member].policy().entry();
+        match by_policy.iter_mut().find(|(known, _)| known.word() == policy.word()) {
+            Some((_, members)) => members.push(member),
+            None => by_policy.push((policy, vec![member])),
+        }
+    }
+    let mut models = vec![];
+    for (policy, members) in by_policy {
+        let caches = members.iter().map(|&member| CacheOnTrace::new(configs[member], space, regions));
+        let caches = caches.collect::<Result<Vec<_>, _>>()?;
+        let mut unanswered: Vec<usize> = (0..caches.len()).collect();
+        for modelled in policy.models(&caches) {
+            let of_model = modelled.answers.into_iter().map(|answer| {
+                unanswered.retain(|&cache| cache != answer.cache);
+                let pages = measures.page_bytes.map(PageSwitches::new);
+                CacheOfModel { config: members[answer.cache], counts: answer.counts, pages }
+            });
+            models.push(Running { model: modelled.model, caches: of_model.collect() });
+        }
+        assert!(unanswered.is_empty(), "{} has no model for some of its caches", policy.word());
+    }
+    Ok(models)
+}
+
+/// Follows the misses of a model's caches: the pages they are in, and the lines that its first cache fetches.
+fn follow(
+    space: &LineSpace,
+    chunk: &LineChunk,
+    misses: &Misses,
+    caches: &mut [CacheOfModel],
+    mut fetched: Option<&mut Vec<(u16, u64)>>,
+    counted: bool,
+) {
+    let line_bytes = u64::from(space.line_bytes());
+    for miss in misses.list() {
+        let region = chunk.attributes(miss.index as usize).region();
+        let line = space.line(region, chunk.slots()[miss.index as usize]);
+        for cache in caches.iter_mut().filter(|cache| cache.counts < miss.caches as usize) {
+            if let Some(pages) = &mut cache.pages {
+                pages.fetch(line * line_bytes, line * line_bytes + (line_bytes - 1), counted);
+            }
+        }
+        let by_first = caches.iter().any(|cache| cache.config == 0 && cache.counts < miss.caches as usize);
+        if let Some(fetched) = &mut fetched
+            && by_first
+        {
+            fetched.push((region as u16, line));
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What a simulation found, once the trace is over.
+
+use std::{collections::BTreeMap, rc::Rc};
+
+use super::Simulation;
+use crate::findings::ResultTraffic;
+use crate::models::LineCounts;
+use crate::{AskedCounts, CacheConfig, CacheCounts, Findings, RecordCounts, TraceCounts};
+
+impl Simulation {
+    /// Ends the simulation: all that it found.
+    ///
+    /// # Panics
+    ///
+    /// As an access may: see [`Simulation`].
+    #[must_use]
+    pub fn findings(mut self) -> Findings {
+        self.flush();
+        let mut records = RecordCounts::default();
+        self.record_counts.iter().for_each(|counts| records.add(counts));
+        let mut caches = vec![None; self.configs.len()];
+        let (mut curves, mut sampled) = (BTreeMap::new(), BTreeMap::new());
+        for group in std::mem::take(&mut self.groups) {
+            let line_bytes = group.space.line_bytes();
+            let (queries, accesses, blocks) = (self.queries, group.accesses, self.blocks(line_bytes.into()));
+            let trace = TraceCounts { line_bytes, queries, records, accesses, blocks };
+            curves.extend(group.curve.map(|curve| (line_bytes, curve.finish(trace))));
+            sampled.extend(group.shards.map(|shards| (line_bytes, shards.finish(trace))));
+            let sets = group.working_sets.map(|sets| Rc::new(sets.finish()));
+            for running in group.models {
+                let lines = running.model.finish();
+                for cache in running.caches {
+                    let config = self.configs[cache.config];
+                    let mut counts = self.counts(config, &trace, &lines[cache.counts]);
+                    let pages = if config.keeps_lines() { &cache.pages } else { &self.record_pages };
+                    counts.more.page_switches = pages.as_ref().map(|pages| pages.switches);
+                    counts.more.working_sets = sets.clone();
+                    caches[cache.config] = Some(counts);
+                }
+            }
+        }
+        let lines = &self.measures.curves;
+        Findings {
+            caches: self.without_twins(caches.into_iter().flatten().collect()),
+            curves: lines.iter().filter_map(|line| curves.get(line).cloned()).collect(),
+            sampled: lines.iter().filter_map(|line| sampled.get(line).cloned()).collect(),
+            result_bytes: self.results.map(ResultTraffic::finish),
+        }
+    }
+
+    /// The counts of the caches asked for, each with the fetches of its twin.
+    fn without_twins(&self, mut caches: Vec<CacheCounts>) -> Vec<CacheCounts> {
+        let twins = caches.split_off(self.asked);
+        if self.measures.split {
+            let mut twins = twins.into_iter();
+            for counts in caches.iter_mut().filter(|counts| counts.config.keeps_lines()) {
+                let twin = if counts.config.full_lru_twin().is_some() { twins.next() } else { None };
+                counts.more.full_lru_fetches = Some(twin.map_or(counts.fetches, |twin| twin.fetches));
+            }
+        }
+        caches
+    }
+
+    /// Bytes of all regions over bytes of a line, rounded up.
+    fn blocks(&self, line: u64) -> u64 {
+        // 2^16 sizes may add up to more than 64 bits; their lines were checked to be few.
+        let bytes: u128 = self.regions.iter().map(|r| u128::from(r.size)).sum();
+        bytes.div_ceil(line.into()) as u64
+    }
+
+    fn counts(&self, config: CacheConfig, trace: &TraceCounts, lines: &LineCounts) -> CacheCounts {
+        let line = u64::from(config.line_bytes());
+        let (cached, records) = (config.keeps_lines(), trace.records);
+        let region_fetches = if cached {
+            lines.fetches.clone()
+        } else {
+            self.record_counts.iter().map(|counts| counts.reads + counts.read_modify_writes).collect()
+        };
+        let fetches = region_fetches.iter().sum();
+        CacheCounts {
+            config,
+            queries: self.queries,
+            searches: self.searches,
+            records,
+            accesses: trace.accesses,
+            fetches,
+            bytes_fetched: if cached { fetches * line } else { records.bytes_read },
+            bytes_written_back: if cached { lines.write_backs * line } else { records.bytes_written },
+            compulsory: lines.compulsory,
+            blocks: trace.blocks,
+            region_fetches,
+            more: AskedCounts::default(),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What pm-cachesim may be asked.
+
+use super::foreign_args::ForeignArgs;
+use super::sizes::Sizes;
+use crate::cli::{Voice, choice};
+use clap::Parser;
+use pm_caches::{CacheConfig, ChosenPolicy, LaneSource, SpanRule, Ways};
+use pm_report::Format;
+use pm_size::Bytes;
+use std::path::PathBuf;
+
+/// Simulate caches over an access trace: how much memory traffic is left?
+///
+/// All caches asked for are simulated in one reading of the trace. An access is one whole record, read when a search
+/// reaches it; a record that spans two lines is two line accesses. A `fetch` is a line that was not in the cache; `per
+/// block` divides by the number of lines that the map occupies. The table shows the columns that people compare, csv and
+/// json have all. Traces of other simulators are read too, plain or compressed: texts tell their format by their first line,
+/// binary ones have to be named with --input. They have no queries, and their blocks are those of the 4 KiB pages they
+/// touch. Of a trace of windows (pm-queries --only-tiles, pm-sample --every) each window is simulated from an empty cache,
+/// and the numbers are estimates with 95 % intervals.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Traces to read, a table row for each trace and cache; `-` is standard input
+    #[arg(default_value = "-")]
+    pub(super) traces: Vec<PathBuf>,
+    /// A cache: size, ways (`full` or a number), line size, policy, and `,hash` to hash the set index; or `none`; may be
+    /// repeated
+    #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways", "policies"])]
+    pub(super) cache: Vec<CacheConfig>,
+    /// Cache sizes, combined with each of --lines, --ways and --policies; 4K..4M is each power of two between [default: 128K]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(super) sizes: Vec<Sizes>,
+    /// Line sizes
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "128")]
+    pub(super) lines: Vec<Bytes>,
+    /// Ways: `full` or numbers
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "full")]
+    pub(super) ways: Vec<Ways>,
+    /// Policies: which line makes room for a new one
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "lru")]
+    pub(super) policies: Vec<ChosenPolicy>,
+    /// Fully associative LRU of every size instead, in one pass: csv and json have all sizes at which a count changes,
+    /// the table has powers of two, the cliff and the size that holds all; or the --sizes given
+    #[arg(long, conflicts_with_all = ["cache", "ways", "policies"])]
+    pub(super) curve: bool,
+    /// The curve from this share of the lines (SHARDS), with its error; beside the exact one with --curve
+    #[arg(long, value_name = "R", conflicts_with_all = ["cache", "ways"], value_parser = rate, hide_short_help = true)]
+    pub(super) shards: Option<f64>,
+    /// Write what the one --cache fetches as a trace, for a further cache; `-` is standard output, then no table
+    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards", "lanes", "input"])]
+    pub(super) misses: Option<PathBuf>,
+    /// Which lines a record touches that does not lie in one
+    #[arg(long, default_value = "both", hide_short_help = true, value_parser = choice::<SpanRule>())]
+    pub(super) span: SpanRule,
+    /// DRAM page (row) to count page switches by, a power of two
+    #[arg(long, value_name = "SIZE", default_value = "8K", hide_short_help = true)]
+    pub(super) page: Bytes,
+    /// Write-back cache of 32-byte sectors that results go through; where a batch is a tile whose pixels fit in it, they
+    /// stay on chip until the batch is over
+    #[arg(long, value_name = "SIZE", default_value = "16K", hide_short_help = true)]
+    pub(super) result_cache: Bytes,
+    /// Bytes of a pixel in memory
+    #[arg(long, value_name = "BYTES", default_value = "12", hide_short_help = true,
+        value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) pixel: u32,
+    /// Searches in flight at a time, accesses one of each in turn; a list: a row for each number
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) lanes: Vec<u16>,
+    /// Which searches fly together: the next of the stream, or one of each of as many parts of a batch
+    #[arg(long, value_name = "HOW", default_value = "stream", requires = "lanes", hide_short_help = true, value_parser = choice::<LaneSource>())]
+    pub(super) lanes_from: LaneSource,
+    #[command(flatten)]
+    pub(super) foreign: ForeignArgs,
+    /// How to print the result
+    #[arg(long, default_value = "table", value_parser = choice::<Format>())]
+    pub(super) format: Format,
+    #[command(flatten)]
+    pub(super) voice: Voice,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
+  pm-cachesim --sizes 4K..4M --lines 64,128 scanline.pmt hilbert.pmt
+  pm-cachesim --ways full,8 --policies lru,plru,min --format csv trace.pmt
+  pm-cachesim --cache 16K,4,64,lru,hash --misses - trace.pmt | pm-cachesim --curve";
+
+fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1.0 => Ok(x),
+        _ => Err("a share of the lines above 0 and at most 1 is expected, such as 0.1".into()),
+    }
+}
+
+impl Args {
+    /// Whether sizes of a curve are printed, and no caches one by one.
+    pub(super) const fn is_curve(&self) -> bool {
+        self.curve || self.shards.is_some()
+    }
+
+    /// The sizes asked for.
+    pub(super) fn all_sizes(&self) -> Vec<Bytes> {
+        self.sizes.iter().flat_map(|sizes| sizes.0.clone()).collect()
+    }
+}

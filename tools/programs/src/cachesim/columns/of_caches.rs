@@ -1,0 +1,132 @@
+//! The table of simulated caches.
+
+use super::super::cache_result::{CacheResult, SetsOf, column_name};
+use super::totals::{BYTES, FETCHES, NONE};
+use super::{Columns, perhaps};
+use pm_caches::{CacheCounts, Distribution};
+use pm_report::{Format, Table, Value};
+use std::collections::BTreeSet;
+
+/// The table of simulated caches.
+pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Table {
+    let sampled = results.iter().any(|of| !of.sample.is_empty());
+    let windowed = results.iter().any(|of| of.counts().is_none());
+    // Where all traces are read one search after the other there is nothing to say.
+    let lanes = results.iter().any(|of| of.lanes > 1);
+    let columns = Columns::new()
+        .text("order", true, |of: &CacheResult| of.order.clone())
+        .text("sample", sampled, |of| of.sample.clone())
+        .text("cache", true, |of| of.config().to_string())
+        .count("lanes", lanes, |of| of.lanes.into())
+        .count("cache_bytes", false, |of| of.config().size_bytes())
+        .text("ways", false, |of| of.config().ways().to_string())
+        .count("line_bytes", false, |of| of.config().line_bytes().into())
+        .text("policy", false, |of| of.config().policy().to_string());
+    let columns = columns.counts(windowed).ratios(windowed).working_sets().other_traffic().windows(windowed);
+    columns.fetches_of_regions(results).text("history", false, |of| of.history.to_string()).table(format, results)
+}
+
+impl Columns<CacheResult> {
+    /// Counts of the stream.
+    fn counts(self, windowed: bool) -> Self {
+        self.total("queries", !windowed, |counts| counts.queries)
+            .total("reads", false, |counts| counts.records.reads)
+            .total("raw_bytes", false, CacheCounts::raw_bytes)
+            .total("accesses", false, |counts| counts.accesses)
+            .total_with_error("fetches", !windowed, |counts| counts.fetches, FETCHES)
+            .total_with_error("bytes_fetched", true, |counts| counts.bytes_fetched, BYTES)
+            .number("bytes_written_back", false, |of| match of.found.knows_write_backs() {
+                true => of.found.total(|counts| counts.bytes_written_back, |_| 0).0,
+                false => perhaps(None),
+            })
+            .count_perhaps("compulsory", |of| Some(of.counts()?.compulsory))
+            .count("blocks", false, |of| of.found.blocks())
+    }
+
+    /// Ratios, and what misses are made of.
+    fn ratios(self, windowed: bool) -> Self {
+        let mut columns = self
+            .per_query("reads_per_query", true, |counts| counts.records.reads, NONE)
+            .per_query("accesses_per_query", false, |counts| counts.accesses, NONE)
+            .per_query("fetches_per_query", true, |counts| counts.fetches, FETCHES);
+        if windowed {
+            columns = columns.in_table().headed("±");
+        }
+        columns
+            .ratio("fetches_per_query_doubt", false, |of| of.half_width(of.found.fetches_per_query().doubt))
+            .ratio("degrees_of_freedom", false, |of| of.found.fetches_per_query().spread.freedom)
+            .ratio("fetches_per_block", true, |of| of.found.fetches_per_block().value)
+            .ratio("fetches_per_block_error", false, |of| of.half_width(of.found.fetches_per_block().half_width()))
+            .ratio("bytes_per_query", false, |of| of.found.bytes_per_query(BYTES(of)).value)
+            .ratio("bytes_per_query_error", false, |of| of.half_width(of.found.bytes_per_query(BYTES(of)).half_width()))
+            .number("capacity", false, |of| perhaps(of.counts().and_then(CacheCounts::capacity)))
+            .number("conflict", false, |of| {
+                of.counts().and_then(CacheCounts::conflict).map_or(perhaps(None), Value::Signed)
+            })
+            .number("page_switches", false, |of| of.found.page_switches())
+            .ratio("page_switches_per_fetch", false, |of| of.found.page_switches_per_fetch())
+    }
+
+    /// Distinct lines of searches and of batches.
+    fn working_sets(mut self) -> Self {
+        let of_searches: SetsOf = |sets| &sets.per_search;
+        let of_batches: SetsOf = |sets| &sets.per_batch;
+        for (name, of) in [("search", of_searches), ("batch", of_batches)] {
+            let percentile = |percent| move |result: &CacheResult| result.sets(of)?.percentile(percent).map(u64::from);
+            let mean = move |result: &CacheResult| match name {
+                "search" => result.found.lines_per_search(),
+                _ => result.sets(of).map_or(f64::NAN, Distribution::mean),
+            };
+            self = self
+                .count_perhaps(&format!("{name}es"), move |result| Some(result.sets(of)?.number()))
+                .ratio(&format!("lines_per_{name}_mean"), false, mean)
+                .count_perhaps(&format!("lines_per_{name}_p50"), percentile(50))
+                .count_perhaps(&format!("lines_per_{name}_p90"), percentile(90))
+                .count_perhaps(&format!("lines_per_{name}_max"), move |result| result.sets(of)?.max().map(u64::from));
+        }
+        self.count_perhaps("batch_floor", move |of| Some(of.sets(of_batches)?.sum()))
+    }
+
+    /// Traffic of queries and results, and what all costs together.
+    fn other_traffic(self) -> Self {
+        // What was spilled of a sample is not what would be of all.
+        self.count_perhaps("query_bytes", |of| of.counts().map(|_| of.query_bytes))
+            .number("result_bytes", false, |of| perhaps(of.result_bytes))
+            .number("total_bytes", false, |of| perhaps(of.total_bytes()))
+            .count("order_bytes_on_chip", false, |of| of.order_bytes)
+    }
+
+    /// How much was measured.
+    fn windows(self, windowed: bool) -> Self {
+        self.count("windows", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows.len() as u64))
+            .count("windows_inexact", windowed, |of| of.found.windows().map_or(0, |windows| windows.windows_inexact()))
+            .count("queries_measured", false, |of| of.found.queries_measured())
+            .count("queries_simulated", windowed, |of| of.found.queries_simulated())
+            .ratio("sample_share", false, |of| match of.found.windows() {
+                Some(windows) => windows.share.unwrap_or(f64::NAN),
+                None if of.sample.is_empty() => 1.0,
+                None => f64::NAN,
+            })
+    }
+
+    /// Fetches of each region of any trace.
+    fn fetches_of_regions(mut self, results: &[CacheResult]) -> Self {
+        let regions = results.iter().flat_map(|of| of.regions.iter().map(|name| column_name(name)));
+        for region in regions.collect::<BTreeSet<String>>() {
+            let names = [format!("fetches_{region}"), format!("fetches_{region}_error")];
+            // A region called `per_query` would be another column.
+            if self.has_any(&names) {
+                continue;
+            }
+            let total = move |of: &CacheResult| {
+                let sum = of.of_regions(&region);
+                of.found.total(|counts| sum(&counts.region_fetches), |window| sum(&window.unknown))
+            };
+            let again = total.clone();
+            self = self
+                .number(&names[0], false, move |of| total(of).0)
+                .ratio(&names[1], false, move |of| of.half_width(again(of).1));
+        }
+        self
+    }
+}

@@ -1,0 +1,84 @@
+//! The stream of one cache's misses, as a trace for a further cache.
+
+use super::questions::Questions;
+use super::results::{Results, Source};
+use super::{Args, windowed};
+use crate::cli::{self, OutputArgs, Progress, Typed, named, usage};
+use anyhow::Context as _;
+use pm_caches::MissStream;
+use pm_formats::trace::TraceReader;
+use pm_formats::vocabulary::meaning;
+use pm_formats::{Number, StageReport};
+use std::path::Path;
+
+/// Simulates one cache and writes what it fetches.
+pub(super) fn write(
+    args: &Args,
+    typed: &Typed,
+    questions: &Questions,
+    file: &Path,
+    results: &mut Results,
+) -> anyhow::Result<()> {
+    let (&[cache], [path]) = (&questions.caches[..], &args.traces[..]) else {
+        return Err(usage("--misses is for one --cache and one trace"));
+    };
+    if !cache.keeps_lines() {
+        return Err(usage("--misses: without a cache nothing is kept back; name one that has lines"));
+    }
+    let name = named(path);
+    let mut trace = TraceReader::from_blocks(cli::open_input(path)?).context(name.clone())?;
+    if windowed::sample(trace.header()).context(name.clone())?.is_some() {
+        windowed::refuse(args).context(name.clone())?;
+    }
+    let measures = questions.measures_of(trace.header());
+    let mut header = trace.header().clone();
+    let through = header.meaning(meaning::MISSES_OF).map_or(cache.to_string(), |first| format!("{first}, {cache}"));
+    header.set_meaning(meaning::MISSES_OF, through);
+    let mut step = typed.step_from(path, None);
+    step.arguments = misses_to_pipe(step.arguments);
+    header.history.push(step);
+    let output = OutputArgs { output: Some(file.to_owned()) }.create()?;
+    let mut stream = MissStream::new(output, header, cache, &measures).context(name.clone())?;
+    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
+    while let Some(block) = trace.replay_block(&mut stream).with_context(|| name.clone())? {
+        stream.end_block(block)?;
+        progress.add(u64::from(block.records));
+    }
+    drop(progress);
+    let end = trace.end()?;
+    let (output, findings) = stream.finish(|counts| {
+        let report = StageReport::new(typed.program())
+            .with("accesses", Number::Count(counts.accesses))
+            .with("fetches", Number::Count(counts.fetches))
+            .with("bytes_fetched", Number::Bytes(counts.bytes_fetched))
+            .with("bytes_written_back", Number::Bytes(counts.bytes_written_back));
+        end.stages.iter().cloned().chain([report]).collect()
+    })?;
+    let written_back = findings.caches[0].bytes_written_back;
+    if written_back > 0 {
+        args.voice
+            .remark(format!("{written_back} bytes that the cache writes back are not in the stream of its misses"));
+    }
+    output.commit()?;
+    results.add(args, &Source::ours(trace.header(), end), 1, findings)
+}
+
+/// The arguments as they stand in the history: the stream does not know its name, nor how the table was printed.
+fn misses_to_pipe(typed: Vec<String>) -> Vec<String> {
+    let mut kept = vec![];
+    let mut words = typed.into_iter();
+    while let Some(word) = words.next() {
+        match word.split_once('=').map_or(word.as_str(), |(name, _)| name) {
+            name @ ("--misses" | "--format") => {
+                if !word.contains('=') {
+                    words.next();
+                }
+                if name == "--misses" {
+                    kept.extend(["--misses".to_owned(), "-".to_owned()]);
+                }
+            }
+            _ => kept.push(word),
+        }
+    }
+    kept
+}

@@ -1,0 +1,82 @@
+//! What is to be found out: the caches, and what else of a trace.
+
+use super::{Args, traffic};
+use crate::cli::usage;
+use pm_caches::{CacheConfig, Measures, ResultMemory};
+use pm_formats::Header;
+use pm_report::Format;
+use pm_size::Bytes;
+
+/// What is to be found out of every trace.
+pub(super) struct Questions {
+    pub(super) caches: Vec<CacheConfig>,
+    pub(super) measures: Measures,
+}
+
+/// The paper's cache.
+const DEFAULT_SIZE: Bytes = Bytes(128 << 10);
+
+impl Questions {
+    /// What the arguments ask.
+    pub(super) fn new(args: &Args) -> anyhow::Result<Self> {
+        Ok(Self { caches: caches(args)?, measures: measures(args)? })
+    }
+
+    /// The measures, given what the trace says.
+    pub(super) fn measures_of(&self, header: &Header) -> Measures {
+        let tile_pixels = traffic::tile_pixels(header);
+        let results = self.measures.results.map(|memory| ResultMemory { tile_pixels, ..memory });
+        Measures { results, ..self.measures.clone() }
+    }
+}
+
+/// Says that something was asked wrongly.
+pub(super) fn asked_wrongly(error: impl std::fmt::Display) -> anyhow::Error {
+    usage(error.to_string())
+}
+
+fn caches(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
+    if !args.cache.is_empty() || args.is_curve() {
+        return Ok(args.cache.clone());
+    }
+    let mut sizes = args.all_sizes();
+    if sizes.is_empty() {
+        sizes.push(DEFAULT_SIZE);
+    }
+    let mut caches = vec![];
+    for line in &args.lines {
+        for size in &sizes {
+            for &ways in &args.ways {
+                for &policy in &args.policies {
+                    let cache = CacheConfig::line(line.0).and_then(|line| CacheConfig::new(size.0, ways, line, policy));
+                    let cache = cache.map_err(|error| usage(format!("{size},{ways},{line},{policy}: {error}")));
+                    caches.push(cache?);
+                }
+            }
+        }
+    }
+    Ok(caches)
+}
+
+/// What to find out besides the caches' own counts: what the format shows.
+fn measures(args: &Args) -> anyhow::Result<Measures> {
+    if !args.page.0.is_power_of_two() {
+        return Err(usage(format!("--page {}: a power of two is expected, such as 8K", args.page)));
+    }
+    let mut measures = Measures { span: args.span, ..Measures::default() };
+    if args.is_curve() {
+        // Whatever the size, the line must do.
+        let lines = args.lines.iter().map(|line| CacheConfig::line(line.0).map_err(asked_wrongly));
+        measures.curves = lines.collect::<anyhow::Result<_>>()?;
+        measures.sampled = args.shards;
+        measures.exact_too = args.curve;
+    } else if args.format != Format::Table {
+        measures.split = true;
+        measures.page_bytes = Some(args.page.0);
+        measures.working_sets = true;
+        // The tile, if there is one, is the trace's.
+        measures.results =
+            Some(ResultMemory { cache_bytes: args.result_cache.0, pixel_bytes: args.pixel, tile_pixels: None });
+    }
+    Ok(measures)
+}

@@ -1,0 +1,114 @@
+//! Traces through the simulation: ours and foreign ones, whole and in windows, with one search in flight or several.
+
+use super::questions::{Questions, asked_wrongly};
+use super::results::{Results, Source};
+use super::{Args, windowed};
+use crate::cli::{Progress, named, open_bytes, usage};
+use anyhow::Context as _;
+use pm_caches::{Lanes, Measures, Simulation, WindowError, Windows};
+use pm_exchange::traces::{self, Opened, TraceImport};
+use pm_formats::trace::{Access, TraceReader, TraceSink};
+use pm_registry::Registry;
+use std::io::Read;
+use std::path::Path;
+
+/// Simulates all caches on one trace.
+pub(super) fn simulate(
+    args: &Args,
+    path: &Path,
+    imports: &Registry<dyn TraceImport>,
+    questions: &Questions,
+    results: &mut Results,
+) -> anyhow::Result<()> {
+    let name = named(path);
+    let reading = args.foreign.reading();
+    let opened = open_bytes(path).and_then(|input| traces::open(input, &reading, imports).context(name.clone()))?;
+    match opened {
+        Opened::Ours(blocks) => {
+            let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
+            simulate_ours(args, trace, questions, results).context(name)
+        }
+        Opened::Foreign(mut trace) => {
+            if args.lanes.iter().any(|&lanes| lanes > 1) {
+                return Err(usage(format!("{name}: a foreign trace has no searches for --lanes to let fly together")));
+            }
+            if let Some(remark) = args.foreign.left_out(trace.left_out()) {
+                args.voice.remark(format!("{name}: {remark}"));
+            }
+            // Nor has it queries whose results would go anywhere.
+            let measures = Measures { results: None, ..questions.measures.clone() };
+            let simulation = Simulation::measuring(trace.regions(), &questions.caches, &measures);
+            let mut simulation = simulation.context(name.clone())?;
+            trace.replay(&mut simulation).context(name)?;
+            let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
+            results.add(args, &source, 1, simulation.findings())
+        }
+    }
+}
+
+/// Simulates all caches on one of our traces, once for each number of lanes.
+fn simulate_ours<R: Read>(
+    args: &Args,
+    mut trace: TraceReader<R>,
+    questions: &Questions,
+    results: &mut Results,
+) -> anyhow::Result<()> {
+    let (configs, measures) = (&questions.caches, questions.measures_of(trace.header()));
+    let regions = trace.header().regions.clone();
+    if let Some(sample) = windowed::sample(trace.header())? {
+        windowed::refuse(args)?;
+        let mut windows = Windows::new(&regions, configs, &measures).map_err(|error| match error {
+            WindowError::Policy(_) => asked_wrongly(error),
+            error => error.into(),
+        })?;
+        replay(args, &mut trace, &mut windows)?;
+        let rows = windows.finish(Some(sample.windows), sample.share);
+        results.add_windows(&Source::ours(trace.header(), trace.end()?), rows);
+        return Ok(());
+    }
+    if args.lanes.is_empty() {
+        let mut simulation = Simulation::measuring(&regions, configs, &measures)?;
+        replay(args, &mut trace, &mut simulation)?;
+        return results.add(args, &Source::ours(trace.header(), trace.end()?), 1, simulation.findings());
+    }
+    let lanes = |&lanes: &u16| -> anyhow::Result<_> {
+        // Where searches are mixed, an access belongs to none of them.
+        let measures = Measures { working_sets: measures.working_sets && lanes == 1, ..measures.clone() };
+        let simulation = Simulation::measuring(&regions, configs, &measures)?;
+        Lanes::new(simulation, lanes, args.lanes_from).context("temporary file")
+    };
+    let mut together = Together(args.lanes.iter().map(lanes).collect::<anyhow::Result<_>>()?);
+    replay(args, &mut trace, &mut together)?;
+    let source = Source::ours(trace.header(), trace.end()?);
+    for (&lanes, simulation) in args.lanes.iter().zip(together.0) {
+        results.add(args, &source, lanes, simulation.finish().context("temporary file")?.findings())?;
+    }
+    Ok(())
+}
+
+/// Replays a trace to its end.
+fn replay<R: Read>(args: &Args, trace: &mut TraceReader<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
+    let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
+    while let Some(block) = trace.replay_block(sink)? {
+        progress.add(u64::from(block.records));
+    }
+    Ok(())
+}
+
+/// The same trace through several numbers of lanes.
+struct Together(Vec<Lanes<Simulation>>);
+
+impl TraceSink for Together {
+    fn block(&mut self, batch: u64, warm_up: bool) {
+        self.0.iter_mut().for_each(|sink| sink.block(batch, warm_up));
+    }
+    fn search(&mut self, destinations: &[u32]) {
+        self.0.iter_mut().for_each(|sink| sink.search(destinations));
+    }
+    fn access(&mut self, access: Access) {
+        self.0.iter_mut().for_each(|sink| sink.access(access));
+    }
+    fn search_end(&mut self) {
+        self.0.iter_mut().for_each(TraceSink::search_end);
+    }
+}
