@@ -4,7 +4,7 @@
 set -euo pipefail
 out=$1 height=$2
 shift 2
-lattice() { seq 0 $(($1 * $1 - 1)) | awk -v n="$1" -v y="$2" 'BEGIN { print "x,y,z" } { print $1 % n / n "," y "," int($1 / n) / n }'; }
+lattice() { pm-sweep derive lattice --with side="$1" --with height="$2"; }
 lattice 141 0 | pm-view -q --import photons - -o "$out.pmp"
 lattice 10 "$height" | pm-view -q --import queries - | pm-gather -q "$out.pmp" - -k 50 "$@" | pm-cachesim -q --format csv
 rm "$out.pmp"

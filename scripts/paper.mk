@@ -55,7 +55,7 @@ out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scen
 	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
 
 # What the paper says, and what we find.
-out/paper/claims.csv: scripts/claims.csv $(if $(wildcard $(BIN)/pm-sweep),$(shell $(BIN)/pm-sweep derive claims --with list=1 scripts/claims.csv)) $(call made_with,REPORTING)
+out/paper/claims.csv: scripts/claims.csv $(CLAIMED) $(call made_with,REPORTING)
 	@mkdir -p $(@D)
 	@$(BIN)/pm-sweep derive claims $< -o $@
 

@@ -11,7 +11,7 @@ queries=()
 while [ $# -gt 0 ] && [ "$1" != -- ]; do queries+=("$1"); shift; done
 [ $# -eq 0 ] || shift
 
-now() { date +%s.%N; }
+now() { echo $(($(date +%s%N) / 1000000)); }
 
 start=$(now)
 pm-queries -q --order tiled "${queries[@]}" | pm-reorder -q hilbert --per batch --storage 4M -o "$out.pmq"
@@ -20,9 +20,10 @@ pm-gather -q "$photons" "$out.pmq" "$@" --base "$reference.base.exr" --image "$o
 gathered=$(now)
 pm-gather -q "$photons" "$out.pmq" "$@" | pm-cachesim -q --format csv > "$out.traffic"
 pm-view "$out.exr" "$reference.exr" --format csv > "$out.error"
-awk -v a="$start" -v b="$cast" -v c="$gathered" 'BEGIN {
-    print "seconds_cast,seconds_gather,seconds"
-    printf "%.3f,%.3f,%.3f\n", b - a, c - b, c - a
-}' > "$out.time"
+seconds() { printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)); }
+{
+    echo seconds_cast,seconds_gather,seconds
+    echo "$(seconds $((cast - start))),$(seconds $((gathered - cast))),$(seconds $((gathered - start)))"
+} > "$out.time"
 paste -d , "$out.traffic" "$out.time" "$out.error"
 rm -f "$out.traffic" "$out.time" "$out.error" "$out.pmq"

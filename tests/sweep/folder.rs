@@ -11,7 +11,8 @@ use std::process::{Output, Stdio};
 fn of_two_makes_at_once_the_second_says_who_has_the_folder() {
     let folder = workshop();
     let words = "-j2 run SIZE=16x16 GATHERS=4 PHOTONS=500";
-    let start = || command(&folder, words, &[]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("make runs");
+    let start =
+        || command(&folder, words, &[]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("make runs");
     let both = [start(), start()].map(|child| child.wait_with_output().expect("make ends"));
     let is_refused = |output: &Output| said(output).contains("`make run` holds out/, process ");
     for output in &both {
@@ -71,7 +72,11 @@ fn tables_and_scenes_may_lie_in_folders_with_blanks() {
     folder.write("my tables/my own.csv", TABLE);
     let mut named = command(&folder, "sweep", &[]);
     let outcome = named.arg("SWEEP=my tables/my own.csv").output().expect("make runs");
-    assert!(said(&outcome).contains("my tables/my own.csv:1: `my own` shall name what make makes"), "{}", said(&outcome));
+    assert!(
+        said(&outcome).contains("my tables/my own.csv:1: `my own` shall name what make makes"),
+        "{}",
+        said(&outcome)
+    );
 }
 
 /// Folders to put first on the path: of each awk that is there, and of one that is none.

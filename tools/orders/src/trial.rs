@@ -9,34 +9,19 @@
 
 mod inputs;
 mod passing;
+mod verdict;
 
 pub use inputs::queries;
 pub use passing::{Form, Passed, forms};
+pub use verdict::{Fault, STORAGE, STORE, Verdict};
 
 use crate::generative::broken_promise;
-use crate::{GenerativeOrder, Order, Per, Store, StoredQuery};
+use crate::{GenerativeOrder, Order, Per};
 use passing::pass;
 use pm_formats::Query;
 use pm_formats::vocabulary::measure;
 use pm_registry::Registry;
 
-/// An order does not do what an order does.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{order}: {what}")]
-pub struct Fault {
-    /// The order, as it was asked for.
-    pub order: String,
-    /// What it did, and on what.
-    pub what: String,
-}
-
-/// What a trial says.
-pub type Verdict = Result<(), Fault>;
-
-/// Bytes of the store in trials.
-pub const STORAGE: u64 = 32 << 10;
-/// The store of trials.
-pub const STORE: Store = Store { bytes: STORAGE, record: StoredQuery::Full };
 /// More memory than any trial needs, and so little that orders which hold everything must use files.
 const MUCH: u64 = 1 << 30;
 const LITTLE: u64 = 64 << 10;

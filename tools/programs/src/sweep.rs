@@ -28,10 +28,8 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  make -j2 sweep SWEEP=my.csv
   pm-sweep rules --words scripts/words.csv my.csv
-  pm-sweep join --words scripts/words.csv my.csv -o out/my.csv
-  pm-sweep until --until 1% --queries '--size 512x512' --window 50 --warm-up 20 --gather map.pmp";
+  pm-sweep join --words scripts/words.csv my.csv -o out/my.csv";
 
 #[derive(Subcommand)]
 enum Command {

@@ -12,8 +12,7 @@ pub(crate) const CHEAPEST: Derivation = Derivation {
 };
 
 const LIMITS: [&str; 5] = ["0.03", "0.01", "0.003", "0.001", "0.0003"];
-const SHOWN: [&str; 9] =
-    ["method", "setting", "n", "k", "gathers", "seconds", "bytes_fetched", "rel_mse", "ldr_flip"];
+const SHOWN: [&str; 9] = ["method", "setting", "n", "k", "gathers", "seconds", "bytes_fetched", "rel_mse", "ldr_flip"];
 
 fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
     let table = asked.table(0)?;
@@ -24,9 +23,8 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
             let enough = table.rows().filter(|row| row.number("rel_mse") <= most);
             // The first of equals.
             let least = enough.reduce(|a, b| if b.number(column) < a.number(column) { b } else { a });
-            let said = least.map_or("none of those tried,,,,,,,,".to_owned(), |row| {
-                SHOWN.map(|name| row.text(name)).join(",")
-            });
+            let said = least
+                .map_or("none of those tried,,,,,,,,".to_owned(), |row| SHOWN.map(|name| row.text(name)).join(","));
             let _ = writeln!(text, "{limit},{by},{said}");
         }
     }

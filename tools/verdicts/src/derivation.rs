@@ -79,6 +79,7 @@ pub fn derivations() -> Registry<Derivation> {
             &crate::exact::EXACT,
             &crate::flux::FLUX,
             &crate::frontier::FRONTIER,
+            &crate::lattice::LATTICE,
             &crate::least::LEAST,
             &crate::mean::MEAN,
             &crate::powers::POWERS,

@@ -81,7 +81,9 @@ fn line(point: &Point, record: &str, best: bool) -> String {
     let Point { name, given, on_chip, parts: [map, query, result], total } = point;
     let Name { photons, series, point, .. } = name;
     let best = if best { "yes" } else { "no" };
-    format!("{photons},{series},{record},{point},{given},{on_chip:.0},{map:.0},{query:.0},{result:.0},{total:.0},{best}\n")
+    format!(
+        "{photons},{series},{record},{point},{given},{on_chip:.0},{map:.0},{query:.0},{result:.0},{total:.0},{best}\n"
+    )
 }
 
 fn collect(table: &Table, is_first: bool, in_full: &mut InFull, points: &mut Vec<Point>) {
@@ -96,8 +98,7 @@ fn collect(table: &Table, is_first: bool, in_full: &mut InFull, points: &mut Vec
         for part in [row.text("tile"), row.text("store")].into_iter().filter(|part| !part.is_empty()) {
             point = point + "-" + part;
         }
-        let name =
-            Name { photons: photons.into(), series: series.into(), record: row.text("record").into(), point };
+        let name = Name { photons: photons.into(), series: series.into(), record: row.text("record").into(), point };
         if last.as_ref() != Some(&name) {
             holds = false;
         }

@@ -14,6 +14,7 @@ mod derivation;
 mod exact;
 mod flux;
 mod frontier;
+mod lattice;
 mod least;
 mod mean;
 mod powers;

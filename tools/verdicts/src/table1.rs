@@ -38,8 +38,8 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
         let (order, map) = key(row);
         let simulated = if row.text("queries_simulated").is_empty() { "queries" } else { "queries_simulated" };
         let share = blocks(row) / plain.get(&*map).copied().unwrap_or(f64::NAN);
-        let front =
-            ["order", "map", "found", simulated, "fetches_per_query", "fetches_per_query_error"].map(|name| row.text(name));
+        let front = ["order", "map", "found", simulated, "fetches_per_query", "fetches_per_query_error"]
+            .map(|name| row.text(name));
         let _ = write!(text, "{},{},{},", front.join(","), significant(blocks(row), 5), significant(share, 4));
         if let (Some(own), Some(whole)) = (paper.get(&(order, map.clone())), paper.get(&("scanline".to_owned(), map))) {
             let number = |text: &str| text.parse().unwrap_or(f64::NAN);

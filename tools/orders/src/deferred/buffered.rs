@@ -7,7 +7,7 @@
 
 mod cell_buffers;
 
-use super::{CELL, LEAF_PHOTONS, PHOTONS};
+use super::parameters::{CELL, LEAF_PHOTONS, PHOTONS};
 use crate::{MedianSplit, Order, Reorder, Setting, Store};
 use cell_buffers::CellBuffers;
 use pm_curves::Grid;

@@ -1,7 +1,7 @@
 //! Cell by cell, of cells so large that the photons of each just fit a cache.
 
 use super::leaf::by_cell;
-use super::{LEAF_PHOTONS, PHOTONS};
+use super::parameters::{LEAF_PHOTONS, PHOTONS};
 use crate::{Charge, Order, Reorder, Setting, Store};
 use pm_registry::{ParameterError, Values};
 

@@ -4,7 +4,7 @@
 //! Heidelberger, Müller, Pomeranets, Gross, *Optimized Spatial Hashing for Collision Detection of Deformable Objects*,
 //! VMV 2003.
 
-use super::CELL;
+use super::parameters::CELL;
 use crate::{Costs, Order, Outlet, Reorder, Setting, Store};
 use pm_curves::Grid;
 use pm_formats::Query;

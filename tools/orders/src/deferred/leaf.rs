@@ -1,6 +1,6 @@
 //! Leaf by leaf of a tree over the photons.
 
-use super::{LEAF_PHOTONS, PHOTONS};
+use super::parameters::{LEAF_PHOTONS, PHOTONS};
 use crate::{Charge, MedianSplit, Order, Reorder, Setting};
 use pm_formats::Query;
 use pm_registry::ParameterError;

@@ -12,9 +12,7 @@ registered! {
 
 /// The side of a tile.
 pub(super) const TILE: Parameter =
-    Parameter::new("tile", Domain::count(1, u32::MAX as u64), "width and height of a tile in pixels")
-        .or("16")
-        .called("PIXELS");
+    Parameter::new("tile", Domain::count(1, u32::MAX as u64), "side of a tile in pixels").or("16").called("PIXELS");
 
 /// In a tile, what is seen directly, and then what is seen in mirrors and through glass.
 pub(super) const POINTS_OF_A_TILE: [VisiblePoints; 2] = [VisiblePoints::Direct, VisiblePoints::BehindSpecular];

@@ -1,6 +1,7 @@
 //! Queries pass through an order, and what it says of itself is watched.
 
-use super::{Fault, STORE, Verdict, inputs};
+use super::inputs;
+use super::verdict::{Fault, STORE, Verdict};
 use crate::{Limits, Order, Per, Reordering, Setting};
 use pm_formats::vocabulary::measure;
 use pm_formats::{BlockMeta, Bounds, Number, Query};

@@ -60,6 +60,14 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     bail!("{fault}");
 }
 
+/// The files of rows that claims need.
+pub(super) fn files_of_claims(claims: &PathBuf) -> anyhow::Result<Vec<String>> {
+    let derivation = derivations().find("claims").map_err(|error| usage(error.to_string()))?;
+    let settings = BTreeMap::from([("list".to_owned(), String::new())]);
+    let listed = (derivation.derive)(&Asked { tables: &[read(claims)?], settings: &settings, look_up: &|_| None })?;
+    Ok(listed.text.lines().map(str::to_owned).collect())
+}
+
 fn read(path: &PathBuf) -> anyhow::Result<Table> {
     let name = path.display().to_string();
     let text = if name == "-" {

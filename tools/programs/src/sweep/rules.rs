@@ -1,7 +1,7 @@
 //! `pm-sweep rules`: tables become rules for make.
 
-use super::fingerprint;
 use super::tables::{self, Vocabulary, asked_wrongly};
+use super::{derive, fingerprint};
 use crate::cli::{create_output, usage};
 use pm_sweep::Sweep;
 use std::fs;
@@ -18,6 +18,9 @@ pub(super) struct Args {
     /// Names that no --own table may have: make has other targets of these names
     #[arg(long, value_name = "NAMES", value_delimiter = ' ')]
     taken: Vec<String>,
+    /// Claims, and what files of rows these need: the variable CLAIMED
+    #[arg(long, value_name = "FILE")]
+    claims: Option<PathBuf>,
     #[command(flatten)]
     vocabulary: Vocabulary,
     /// File to write; it stays as it is where nothing changes. `-` is standard output
@@ -28,7 +31,10 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     let words = args.vocabulary.read()?;
     let mut sweeps: Vec<Sweep> = vec![];
-    for path in args.tables.iter().chain(&args.own) {
+    // A table that is there anyway may be one's own as well.
+    let same =
+        |path: &PathBuf| args.own.as_ref().is_some_and(|own| fs::canonicalize(own).ok() == fs::canonicalize(path).ok());
+    for path in args.tables.iter().filter(|path| !same(path)).chain(&args.own) {
         let sweep = tables::sweep(path, &words)?;
         if let Some(other) = sweeps.iter().find(|other| other.name == sweep.name) {
             return Err(taken(&sweep, &format!("that is {}", other.file)));
@@ -36,12 +42,15 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         sweeps.push(sweep);
     }
     let own = args.own.as_ref().and_then(|_| sweeps.last());
-    if let Some(own) = own.filter(|own| args.taken.contains(&own.name)) {
+    if let Some(own) = own.filter(|own| args.taken.contains(&own.name) && !args.tables.iter().any(same)) {
         return Err(taken(own, "other targets of make are called so"));
     }
     let mut text = format!("# Made by pm-sweep; scripts/sweep.mk has the recipes.\n{}", fingerprint::variables());
     if let Some(own) = own {
         text += &format!("OWN := {}\n", own.joined());
+    }
+    if let Some(claims) = &args.claims {
+        text += &format!("CLAIMED := {}\n", derive::files_of_claims(claims)?.join(" "));
     }
     text += &pm_sweep::rules::rules(&sweeps, &args.vocabulary.words.display().to_string()).map_err(asked_wrongly)?;
     if is_there(&args.output, text.as_bytes()) {
