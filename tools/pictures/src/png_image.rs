@@ -21,7 +21,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Preview> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(PictureError::NotPng)?;
-    let size = reader.output_buffer_size().ok_or_else(|| PictureError::NotPng(png::DecodingError::LimitsExceeded))?;
+    let size = reader.output_buffer_size().ok_or(PictureError::NotPng(png::DecodingError::LimitsExceeded))?;
     let mut bytes = vec![0; size];
     let frame = reader.next_frame(&mut bytes).map_err(PictureError::NotPng)?;
     let samples = frame.color_type.samples();
