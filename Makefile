@@ -31,7 +31,7 @@ run: $(ORDERS:%=out/%.csv) out/cornell.exr ## The five orders compared: a table,
 	@echo
 	@echo "Picture: out/cornell.exr (linear), out/cornell.png (preview). Streams: out/*.pmp, *.pmq, *.pmt; see pm-view."
 
-TAKEN += $(ORDERS) soft
+TAKEN += $(ORDERS) soft map direct seen caustics cornell man
 
 out/map.pmp: $(call made_with,PHOTONS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-photons -n $(PHOTONS) -t $(THREADS) -o $@
