@@ -47,6 +47,15 @@ fn more_deferred() -> Vec<String> {
     MORE_DEFERRED.map(str::to_owned).into_iter().chain(others).collect()
 }
 
+/// These maps, and any structure of which there is none among them.
+fn maps<'a>(listed: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    let mut maps: Vec<String> = listed.into_iter().map(str::to_owned).collect();
+    let is_listed = |maps: &[String], word| maps.iter().any(|map| map.split(' ').next() == Some(word));
+    let others: Vec<_> = pm_maps::structures().words().into_iter().filter(|word| !is_listed(&maps, word)).collect();
+    maps.extend(others.into_iter().map(str::to_owned));
+    maps
+}
+
 /// Runs a command with 1, 2 and 5 threads; `get` must find the same bytes after each.
 fn same_for_any_threads(folder: &Folder, line: &str, get: impl Fn(&[u8]) -> Vec<u8>) {
     let run = |threads: u32| get(&folder.run(&format!("{line} -t {threads}")).ok().stdout);
@@ -79,6 +88,10 @@ fn threads_change_no_byte_of_a_stream() {
         "pm-queries --size 16x12 --gathers 4 --guide map.pmp",
     ] {
         same_for_any_threads(&folder, line, <[u8]>::to_vec);
+    }
+    // Those above, which are maps of every structure but of a grid of fixed cells; and any other.
+    for map in &maps(["kd", "bucket-kd", "vvh", "kdb", "grid", "block-hash", "brute"])[7..] {
+        same_for_any_threads(&folder, &format!("pm-gather --map {map} map.pmp q.pmq"), <[u8]>::to_vec);
     }
     for order in GENERATIVE {
         same_for_any_threads(&folder, &format!("pm-queries {SMALL} {order}"), <[u8]>::to_vec);
@@ -183,7 +196,7 @@ fn orders_are_orders() {
 fn every_order_makes_the_same_searches() {
     let folder = Folder::with_streams();
     let names = queries_in_every_order(&folder);
-    for map in [
+    for map in maps([
         "kd",
         "kd --layout preorder",
         "kd --layout veb --pad",
@@ -195,7 +208,7 @@ fn every_order_makes_the_same_searches() {
         "grid-fixed",
         "block-hash",
         "brute",
-    ] {
+    ]) {
         let mut tallies: Vec<Tally> = vec![];
         for name in &names {
             let trace = folder.run(&format!("pm-gather --map {map} map.pmp {name}")).ok();
@@ -245,6 +258,10 @@ fn the_picture_is_the_same_to_the_last_bit() {
     ] {
         same_bytes(options, &expected, &picture(&format!("q0-2.pmq {options}")));
         same_bytes(options, &expected, &picture(&format!("q2-1.pmq {options}")));
+    }
+    for structure in pm_maps::structures().iter().filter(|structure| structure.is_exact()) {
+        let options = format!("--map {}", structure.word());
+        same_bytes(&options, &expected, &picture(&format!("q2-1.pmq {options}")));
     }
 
     // There is something in the picture: light in nearly every pixel, more of it than direct light alone, and another

@@ -19,7 +19,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("orders", &["curves", "random", "registry", "size", "formats"]),
     ("light", &["curves", "film", "orders", "parallel", "random", "registry", "formats"]),
     // Never light: a map is built from photons in a stream.
-    ("maps", &["curves", "film", "parallel", "random", "registry", "formats"]),
+    ("maps", &["curves", "random", "registry", "formats"]),
+    ("gathering", &["film", "maps", "parallel", "random", "registry", "formats"]),
     // Never maps: a cache sees accesses only.
     ("caches", &["random", "registry", "sampling", "size", "spool", "formats"]),
     // Never caches: it says what was accessed, not what that costs.

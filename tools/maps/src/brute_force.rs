@@ -1,6 +1,8 @@
 //! The oracle: looks at every photon.
 
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared};
+use super::error::check;
+use super::geometry::distance_squared;
+use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
 

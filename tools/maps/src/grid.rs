@@ -1,16 +1,13 @@
 //! The uniform grid, in the two forms that GI'05 looked at: cells of fixed size, which lose what does not fit, and a
 //! directory of where the photons of each cell are.
 
-use super::leaves::Point;
-use super::{AccessObserver, BuildError, Nearest, PhotonMap, check, distance_squared, extent};
-use pm_formats::Photon;
+mod build;
+
+use super::geometry::distance_squared;
+use super::point::Point;
+use super::{AccessObserver, Nearest, PhotonMap};
 use pm_formats::trace::{Coding, Region, lay_out};
-
-/// Photons for each cell of the grid, on average over all cells, most of which are empty.
-const PHOTONS_PER_CELL: usize = 4;
-
-/// What fixed cells have room for unless asked, at most, in multiples of the photons there are.
-const MOST_SLOTS: usize = 16;
+use pm_formats::{Number, Photon};
 
 /// Bytes of a fixed cell that say how many photons it holds.
 const HEADER: u32 = 8;
@@ -48,59 +45,6 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Builds the grid in O(n log n).
-    ///
-    /// # Errors
-    /// See [`BuildError`].
-    pub fn build(photons: &[Photon], cells: Cells) -> Result<Self, BuildError> {
-        check(photons)?;
-        let (low, high) = if photons.is_empty() {
-            ([0.0; 3], [0.0; 3])
-        } else {
-            extent(photons.iter().map(|photon| photon.position))
-        };
-        let extents = [0, 1, 2].map(|axis| f64::from(high[axis]) - f64::from(low[axis]));
-        let (side, counts) = cubes(extents, (photons.len() / PHOTONS_PER_CELL).max(1));
-        let mut grid = Self {
-            origin: low.map(f64::from),
-            side,
-            counts,
-            starts: vec![],
-            points: vec![],
-            fixed: None,
-            lost: 0,
-            photons: photons.len(),
-        };
-        let mut by_cell: Vec<(u32, Point)> =
-            Point::all(photons).into_iter().map(|point| (grid.cell(point.position), point)).collect();
-        by_cell.sort_unstable_by_key(|&(cell, point)| (cell, point.id));
-        let mut slots = usize::MAX;
-        if let Cells::Fixed { line, slots: wanted } = cells {
-            let occupied = by_cell.chunk_by(|a, b| a.0 == b.0).count().max(1);
-            let photon = size_of::<Photon>() as u32;
-            let cells = counts.iter().product::<usize>();
-            let most = MOST_SLOTS * photons.len() / cells;
-            let wanted = wanted.map_or((2 * photons.len()).div_ceil(occupied).min(most).max(1), |slots| slots as usize);
-            let bytes = (u64::from(HEADER) + wanted as u64 * u64::from(photon)).next_multiple_of(u64::from(line));
-            let lines = cells as u64 * (bytes / u64::from(line));
-            let bytes =
-                u32::try_from(bytes).ok().filter(|_| lines <= u64::from(u32::MAX)).ok_or(BuildError::TooLarge)?;
-            slots = ((bytes - HEADER) / photon) as usize;
-            grid.fixed = Some((bytes, line));
-        }
-        grid.starts = vec![0; counts.iter().product::<usize>() + 1];
-        let mut next = 0;
-        for cell in by_cell.chunk_by(|a, b| a.0 == b.0) {
-            let at = cell[0].0 as usize;
-            grid.starts[next..=at].fill(grid.points.len() as u32);
-            next = at + 1;
-            grid.points.extend(cell.iter().take(slots).map(|&(_, point)| point));
-            grid.lost += cell.len().saturating_sub(slots);
-        }
-        grid.starts[next..].fill(grid.points.len() as u32);
-        Ok(grid)
-    }
-
     /// Photons that found no room in their cell.
     #[must_use]
     pub const fn lost(&self) -> usize {
@@ -157,23 +101,6 @@ impl Grid {
     }
 }
 
-/// The smallest cubes of which `most` cover a box, and how many of them along each side.
-fn cubes(extents: [f64; 3], most: usize) -> (f64, [usize; 3]) {
-    let counts = |side: f64| extents.map(|extent| (extent / side) as usize + 1);
-    let longest = extents.into_iter().fold(0.0, f64::max);
-    if longest <= 0.0 {
-        return (1.0, [1; 3]);
-    }
-    // Within these there is a number of cubes that will do: one along the longest side, and all of them.
-    let (mut small, mut large) = (longest / most as f64 / 2.0, longest * 2.0);
-    for _ in 0..64 {
-        let middle = (small * large).sqrt();
-        let [x, y, z] = counts(middle);
-        if x.saturating_mul(y).saturating_mul(z) <= most { large = middle } else { small = middle }
-    }
-    (large, counts(large))
-}
-
 /// A squared distance as maps compute it would not be less, whatever was rounded away on the way.
 #[expect(clippy::cast_possible_truncation, reason = "rounded as squared distances are")]
 fn at_least(distance_squared: f64) -> f32 {
@@ -199,6 +126,11 @@ impl PhotonMap for Grid {
 
     fn is_exact(&self) -> bool {
         self.lost == 0
+    }
+
+    fn measures(&self) -> Vec<(&'static str, Number)> {
+        let cells = self.counts.iter().product::<usize>();
+        vec![("cells", Number::Count(cells as u64)), ("photons_lost", Number::Count(self.lost as u64))]
     }
 
     /// The query's own cell, then shell after shell of cells about it, until no photon in the next can be near enough.
@@ -239,44 +171,4 @@ impl PhotonMap for Grid {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn photons(positions: impl IntoIterator<Item = [f32; 3]>) -> Vec<Photon> {
-        let up = [0.0, 1.0, 0.0];
-        positions.into_iter().map(|p| Photon::new(p, [1.0; 3], [0.5; 3], up, up).unwrap()).collect()
-    }
-
-    #[test]
-    fn cubes_are_as_many_as_asked_or_a_little_fewer() {
-        for extents in [[1.0; 3], [1.0, 1.0, 0.0], [1e6, 0.0, 0.0], [1e6, 1e-6, 1e-6], [1e-40; 3], [3.0, 2.0, 0.5]] {
-            for most in [1, 2, 10, 1000, 100_000] {
-                let (side, [x, y, z]) = cubes(extents, most);
-                assert!(x * y * z <= most && x * y * z * 30 >= most, "{extents:?} {most}: {side} {x} {y} {z}");
-            }
-        }
-    }
-
-    #[test]
-    fn fixed_cells_lose_what_has_no_room_and_say_so() {
-        // A hundred photons in one spot, and one far away so that there are cells.
-        let list = photons((0..100).map(|_| [0.0; 3]).chain([[1.0; 3]]));
-        let grid = Grid::build(&list, Cells::Fixed { line: 128, slots: Some(6) }).unwrap();
-        assert_eq!((grid.lost(), grid.points.len(), grid.is_exact()), (94, 7, false));
-        let roomy = Grid::build(&list, Cells::Fixed { line: 128, slots: Some(100) }).unwrap();
-        assert_eq!((roomy.lost(), roomy.is_exact()), (0, true));
-        let mut found = Nearest::new(101, f32::INFINITY);
-        grid.nearest([0.0; 3], &mut found, &mut super::super::Blind);
-        assert_eq!(found.len(), 7);
-    }
-
-    #[test]
-    fn a_fixed_cell_is_read_as_far_as_it_is_used() {
-        let grid = Grid::build(&photons([[0.0; 3]; 3]), Cells::Fixed { line: 32, slots: Some(9) }).unwrap();
-        // 8 + 9 x 20 bytes are six lines; 8 + 3 x 20 bytes reach into the third.
-        assert_eq!(grid.regions(false)[0].size, 192);
-        let mut reads = 0u64;
-        grid.nearest([0.0; 3], &mut Nearest::new(1, f32::INFINITY), &mut reads);
-        assert_eq!(reads, 3);
-    }
-}
+mod tests;

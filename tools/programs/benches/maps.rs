@@ -12,8 +12,8 @@ mod common;
 use common::{cpu_time, median, morton, surface_point};
 use pm_formats::Photon;
 use pm_maps::{
-    AccessObserver, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest, PageForm,
-    PhotonMap, Search, Visits, VvhTree,
+    AccessObserver, AnyMap, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest,
+    PageForm, PhotonMap, Search, SearchReads, VvhTree,
 };
 use pm_random::Random;
 use std::hint::black_box;
@@ -70,17 +70,18 @@ impl Maps {
 
     fn measure(&self, points: &[[f32; 3]], rounds: usize) {
         let search = &self.search;
-        let mut visits = Visits::default();
+        let mut reads = SearchReads::default();
         let mut contestants: Vec<Contestant<'_>> = vec![
             ("kd, stripped by hand", Box::new(|| self.stripped.run(points, search))),
             ("kd, blind", Box::new(|| run(&self.kd, search, points, &mut Blind))),
             (
                 "kd, reads remembered",
                 Box::new(move || {
-                    visits.clear();
-                    run(&self.kd, search, points, &mut visits)
+                    reads.clear();
+                    run(&self.kd, search, points, &mut reads)
                 }),
             ),
+            ("kd, behind its face", Box::new(|| run(&self.kd as &dyn AnyMap, search, points, &mut Blind))),
             ("kd, carried", Box::new(|| run_carried(&self.kd, search, points))),
             ("bucket-kd, line 128", Box::new(|| run(&self.bucket[0], search, points, &mut Blind))),
             ("bucket-kd, line 320", Box::new(|| run(&self.bucket[1], search, points, &mut Blind))),
@@ -113,7 +114,7 @@ fn sum(points: &[[f32; 3]], mut radius: impl FnMut([f32; 3]) -> f32) -> f64 {
     points.iter().map(|&point| f64::from(radius(point).sqrt())).sum()
 }
 
-fn run(map: &impl PhotonMap, search: &Search, points: &[[f32; 3]], eyes: &mut impl AccessObserver) -> f64 {
+fn run(map: &(impl PhotonMap + ?Sized), search: &Search, points: &[[f32; 3]], eyes: &mut impl AccessObserver) -> f64 {
     let mut found = Nearest::new(K, 0.0);
     sum(points, |point| {
         search.run(map, point, &mut found, eyes);

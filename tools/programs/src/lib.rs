@@ -5,7 +5,7 @@
 pub mod cachesim;
 pub mod chart;
 pub mod cli;
-pub mod map_args;
+pub mod gather;
 pub mod photons;
 pub mod queries;
 pub mod reorder;

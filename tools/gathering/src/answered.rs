@@ -1,0 +1,58 @@
+//! What a block of queries became, or why it became nothing.
+
+use super::Lookups;
+use pm_film::film::Overflow;
+use pm_formats::{Block, Tally};
+use std::ops::AddAssign;
+
+/// What a block of queries became.
+pub struct Answered {
+    /// The block of the trace that belongs to it, with number and digest of its searches.
+    pub trace: Option<(Block, Tally)>,
+    /// Number and digest of the queries.
+    pub tally: Tally,
+    /// What is to be added to which pixel.
+    pub contributions: Vec<(u32, [i128; 3])>,
+    /// What is to be added to which sum of the cached irradiance.
+    pub cached: Vec<(u32, [i128; 3])>,
+    /// What was done.
+    pub counts: SearchCounts,
+    /// What the lookups were like, if that is wanted.
+    pub lookups: Option<Lookups>,
+}
+
+/// What searches did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SearchCounts {
+    /// Records read.
+    pub accesses: u64,
+    /// Attempts made, at least one for each search.
+    pub attempts: u64,
+    /// Searches that found fewer than k photons.
+    pub short: u64,
+    /// Estimates that could not be made because the photons' disc has no area.
+    pub no_area: u64,
+    /// Queries for which there was no precomputed irradiance with a similar normal.
+    pub no_site: u64,
+}
+
+impl AddAssign for SearchCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.accesses += other.accesses;
+        self.attempts += other.attempts;
+        self.short += other.short;
+        self.no_area += other.no_area;
+        self.no_site += other.no_site;
+    }
+}
+
+/// Why a block could not be answered.
+#[derive(Debug)]
+pub enum Fault {
+    /// It does not hold usable queries.
+    Damaged(&'static str),
+    /// A pixel's light does not fit the film.
+    TooBright(Overflow),
+    /// Its trace cannot be written.
+    Format(pm_formats::Error),
+}

@@ -1,0 +1,81 @@
+//! Are areas and integrals of a cut disc what they are by hand and by random points?
+
+use super::*;
+use pm_random::Random;
+use std::f64::consts::PI;
+
+/// A disc in the plane y = 0, cut by vertical planes at these distances and angles (degrees).
+fn disc(cuts: &[(f64, f64)]) -> Disc {
+    let mut disc = Disc::new(DVec3::Y);
+    let strangers: Vec<_> = (0..)
+        .zip(cuts)
+        .map(|(id, &(distance, degrees))| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let towards = DVec3::new(cos, 0.0, sin);
+            // Not beyond the cuts before it.
+            let aside = DVec3::new(-sin, 1.0, cos);
+            let rank = (distance as f32, id);
+            Stranger { rank, offset: towards * distance + aside * 0.2, normal: -towards }
+        })
+        .collect();
+    disc.cut(&strangers);
+    assert_eq!(disc.cuts.len(), cuts.len());
+    disc
+}
+
+#[test]
+fn a_segment_has_the_area_of_a_segment() {
+    for d in [0.0, 0.1, 0.5, 0.99] {
+        let segment = f64::acos(d) - d * f64::sqrt(1.0 - d * d);
+        let area = disc(&[(d, 77.0)]).integral(Kernel::Constant);
+        assert!((area - (PI - segment)).abs() < 1e-9, "{d}: {area}");
+    }
+    // A quarter, and a square.
+    assert!((disc(&[(0.0, 0.0), (0.0, 90.0)]).integral(Kernel::Constant) - PI / 4.0).abs() < 1e-9);
+    let square: Vec<_> = [0.0, 90.0, 180.0, 270.0].map(|angle| (0.6, angle)).into();
+    assert!((disc(&square).integral(Kernel::Constant) - 1.44).abs() < 1e-9);
+}
+
+#[test]
+fn integrals_are_those_of_random_points() {
+    let cuts: [&[(f64, f64)]; 5] = [
+        &[],
+        &[(0.3, 10.0)],
+        &[(0.3, 10.0), (0.4, 100.0)],
+        &[(0.2, -50.0), (0.35, 30.0), (0.6, 170.0)],
+        &[(0.1, 0.0), (0.2, 80.0), (0.3, 160.0), (0.4, 240.0)],
+    ];
+    for (cuts, kernel) in
+        cuts.iter().flat_map(|cuts| [Kernel::Constant, Kernel::Cone, Kernel::Epanechnikov].map(|k| (cuts, k)))
+    {
+        let disc = disc(cuts);
+        let mut random = Random::new(&[3]);
+        let n = 200_000;
+        let mut sum = 0.0;
+        for _ in 0..n {
+            let (x, z) = (f64::from(random.unit()) * 2.0 - 1.0, f64::from(random.unit()) * 2.0 - 1.0);
+            let s = x.hypot(z);
+            if s < 1.0 && disc.holds(DVec3::new(x, 0.0, z)) {
+                sum += 4.0 * kernel.weight(s) / f64::from(n);
+            }
+        }
+        let integral = disc.integral(kernel);
+        // Standard error at most 2 / sqrt(n) = 0.0045.
+        assert!((integral - sum).abs() < 0.015, "{cuts:?} {kernel:?}: {integral} for {sum}");
+    }
+}
+
+#[test]
+fn only_what_reaches_the_disc_from_another_side_cuts_it() {
+    let cut = |offset: DVec3, normal: DVec3| {
+        let mut disc = Disc::new(DVec3::Y);
+        disc.cut(&[Stranger { rank: (0.0, 0), offset, normal }]);
+        !disc.is_whole()
+    };
+    assert!(cut(DVec3::new(0.5, 0.3, 0.0), DVec3::NEG_X));
+    // A convex edge: the other surface looks away.
+    assert!(cut(DVec3::new(0.5, -0.3, 0.0), DVec3::X));
+    // The back of a thin wall; a wall whose plane passes by.
+    assert!(!cut(DVec3::new(0.5, -0.01, 0.0), DVec3::NEG_Y));
+    assert!(!cut(DVec3::new(0.7, 0.7, 0.0), DVec3::new(-0.8, -0.6, 0.0)));
+}

@@ -1,0 +1,54 @@
+//! The search for one site.
+
+use super::PrecomputedIrradiance;
+use crate::surface::{coarse, on_same_surface};
+use pm_formats::unpack_direction;
+use pm_maps::AccessObserver;
+use pm_maps::geometry::distance_squared;
+
+/// Deepest tree of at most 2^30 nodes, and one more.
+const MAX_DEPTH: usize = 32;
+impl PrecomputedIrradiance<'_> {
+    /// Index of the site nearest to `point` among those whose normal is similar, ties by photon id.
+    ///
+    /// Jensen's walk with a bound that shrinks to the nearest found. A site is looked at before those below it, so that
+    /// the bound is small as early as can be.
+    pub(super) fn nearest(&self, point: [f32; 3], normal: [f32; 3], eyes: &mut impl AccessObserver) -> Option<usize> {
+        let count = self.sites.len();
+        // Distance bits above the id: for non-negative floats the bits order as the numbers do.
+        let key = |distance: f32, id: u32| u64::from(distance.to_bits()) << 32 | u64::from(id);
+        let (mut nearest, mut best) = (None, key(self.bound, u32::MAX));
+        let mut bound = self.bound;
+        // Second children yet to be looked at, with the squared distance to the plane before them.
+        let mut waiting = [(0u32, 0f32); MAX_DEPTH];
+        let mut depth = 0;
+        let mut at = usize::from(count > 0);
+        while at != 0 {
+            let site = &self.sites[at - 1];
+            eyes.read(self.region, (at - 1) as u32);
+            let distance = distance_squared(point, site.position);
+            // Not `<`: one as far as the nearest may have the smaller id. Also false for NaN.
+            if distance <= bound {
+                let mine = key(distance, self.ids[at - 1]);
+                let its_normal = || unpack_direction::<7>(u32::from(site.normal));
+                if mine < best && on_same_surface(coarse(its_normal()), normal) {
+                    (nearest, best, bound) = (Some(at - 1), mine, distance);
+                }
+            }
+            let axis = usize::from(site.axis);
+            let delta = point[axis] - site.position[axis];
+            let (near, far) = if delta > 0.0 { (2 * at + 1, 2 * at) } else { (2 * at, 2 * at + 1) };
+            if far <= count {
+                waiting[depth] = (far as u32, delta * delta);
+                depth += 1;
+            }
+            at = if near <= count { near } else { 0 };
+            while at == 0 && depth > 0 {
+                depth -= 1;
+                let (far, plane) = waiting[depth];
+                at = if plane <= bound { far as usize } else { 0 };
+            }
+        }
+        nearest
+    }
+}

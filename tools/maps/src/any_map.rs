@@ -1,0 +1,105 @@
+//! Any photon map behind one face, for those who choose one when the program runs.
+
+use super::{AccessObserver, Nearest, PhotonMap, SearchReads};
+use pm_formats::Number;
+use pm_formats::trace::Region;
+
+/// A [`PhotonMap`] as an object: every map has this face, and behind it is a [`PhotonMap`] again. Its methods are those of
+/// the map; the search has a method for each observer that matters for speed, so that a call costs once a search and not
+/// once a record.
+pub trait AnyMap: Send + Sync {
+    /// See [`PhotonMap::regions`].
+    fn regions(&self, reread: bool) -> Vec<Region>;
+    /// See [`PhotonMap::len`].
+    fn len(&self) -> usize;
+    /// See [`PhotonMap::is_empty`].
+    fn is_empty(&self) -> bool;
+    /// See [`PhotonMap::padding`].
+    fn padding(&self) -> Option<u32>;
+    /// See [`PhotonMap::is_exact`].
+    fn is_exact(&self) -> bool;
+    /// See [`PhotonMap::measures`].
+    fn measures(&self) -> Vec<(&'static str, Number)>;
+    /// See [`PhotonMap::blocks`].
+    fn blocks(&self) -> Option<(u16, Vec<u32>)>;
+    /// [`PhotonMap::nearest`] seen by nobody.
+    fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest);
+    /// [`PhotonMap::nearest`] with its reads remembered.
+    fn nearest_read(&self, point: [f32; 3], found: &mut Nearest, reads: &mut SearchReads);
+    /// [`PhotonMap::nearest`] with any observer, which is called for each read.
+    fn nearest_seen(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut dyn AccessObserver);
+}
+
+impl<M: PhotonMap> AnyMap for M {
+    fn regions(&self, reread: bool) -> Vec<Region> {
+        PhotonMap::regions(self, reread)
+    }
+
+    fn len(&self) -> usize {
+        PhotonMap::len(self)
+    }
+
+    fn is_empty(&self) -> bool {
+        PhotonMap::is_empty(self)
+    }
+
+    fn padding(&self) -> Option<u32> {
+        PhotonMap::padding(self)
+    }
+
+    fn is_exact(&self) -> bool {
+        PhotonMap::is_exact(self)
+    }
+
+    fn measures(&self) -> Vec<(&'static str, Number)> {
+        PhotonMap::measures(self)
+    }
+
+    fn blocks(&self) -> Option<(u16, Vec<u32>)> {
+        PhotonMap::blocks(self)
+    }
+
+    fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest) {
+        self.nearest(point, found, &mut super::Blind);
+    }
+
+    fn nearest_read(&self, point: [f32; 3], found: &mut Nearest, reads: &mut SearchReads) {
+        self.nearest(point, found, reads);
+    }
+
+    fn nearest_seen(&self, point: [f32; 3], found: &mut Nearest, mut eyes: &mut dyn AccessObserver) {
+        self.nearest(point, found, &mut eyes);
+    }
+}
+
+/// What a search is written for serves both: a map whose type is known, and one behind its face.
+impl PhotonMap for dyn AnyMap + '_ {
+    fn regions(&self, reread: bool) -> Vec<Region> {
+        AnyMap::regions(self, reread)
+    }
+
+    fn len(&self) -> usize {
+        AnyMap::len(self)
+    }
+
+    fn padding(&self) -> Option<u32> {
+        AnyMap::padding(self)
+    }
+
+    fn is_exact(&self) -> bool {
+        AnyMap::is_exact(self)
+    }
+
+    fn measures(&self) -> Vec<(&'static str, Number)> {
+        AnyMap::measures(self)
+    }
+
+    fn blocks(&self) -> Option<(u16, Vec<u32>)> {
+        AnyMap::blocks(self)
+    }
+
+    #[inline]
+    fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        eyes.look_into(self, point, found);
+    }
+}

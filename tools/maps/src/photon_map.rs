@@ -1,0 +1,59 @@
+//! What a photon map is.
+
+use super::{AccessObserver, Nearest};
+use pm_formats::Number;
+use pm_formats::trace::Region;
+
+/// A structure that finds the photons nearest to a point.
+///
+/// The contract all exact maps share: squared distances are `(dx * dx + dy * dy) + dz * dz` in `f32` without fused
+/// operations; photons within the bound (inclusive) are found; of more than k, the k smallest by (distance, photon id).
+/// So the answer depends on nothing but the photons and the query.
+pub trait PhotonMap: Send + Sync {
+    /// The memory the map would live in, each region as it is to be traced, with or without second touches.
+    fn regions(&self, reread: bool) -> Vec<Region>;
+
+    /// Number of photons.
+    fn len(&self) -> usize;
+
+    /// True if there are no photons.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Bytes of the lines that no record of the map crosses, if its records are padded; else they are packed.
+    fn padding(&self) -> Option<u32> {
+        None
+    }
+
+    /// True if the photons found are always the nearest.
+    fn is_exact(&self) -> bool {
+        true
+    }
+
+    /// What building it has brought to light, by name: the same for the same photons and values.
+    fn measures(&self) -> Vec<(&'static str, Number)> {
+        vec![]
+    }
+
+    /// Of a map that may miss photons of a block: number of the region of its blocks, and the block of each photon.
+    fn blocks(&self) -> Option<(u16, Vec<u32>)> {
+        None
+    }
+
+    /// Adds to `found` the photons nearest to `point`, within its bound.
+    fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver);
+}
+
+/// Byte offset of a record in its region, whether records are packed or padded (see [`PhotonMap::padding`]).
+#[inline]
+#[must_use]
+pub fn offset_of(record: u32, record_size: u32, padding: Option<u32>) -> u64 {
+    match padding {
+        Some(line) => {
+            let in_line = line / record_size;
+            u64::from(record / in_line) * u64::from(line) + u64::from(record % in_line * record_size)
+        }
+        None => u64::from(record) * u64::from(record_size),
+    }
+}

@@ -1,0 +1,185 @@
+//! `pm-gather`: answers gather queries from a photon map and writes the memory reads that this takes.
+
+mod answering;
+mod args;
+mod building;
+mod description;
+mod photons;
+mod pictures;
+mod queries;
+mod stage;
+
+use crate::cli::{Outcome, Output, Program, Typed, create_output, named, usage};
+use answering::{Asked, answer_all};
+use anyhow::Context as _;
+use args::Args;
+use building::Building;
+use description::Description;
+use photons::Photons;
+use pictures::Films;
+use pm_film::film::Film;
+use pm_formats::trace::TraceWriter;
+use pm_formats::vocabulary::meaning;
+use pm_formats::{Header, Photon, Step};
+use pm_gathering::{Answerer, EstimateOptions, Lookups, Precomputation, PrecomputedIrradiance, RadianceEstimate};
+use pm_maps::{AnyMap, BuildError, Search, Setting, StartRadius, Structure};
+use pm_registry::Registry;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// The program, as a process, with these structures of photon maps.
+#[must_use]
+pub fn main(structures: &Registry<dyn Structure>) -> ExitCode {
+    program(structures).main(gather)
+}
+
+/// A run of the program with these structures and arguments.
+pub fn run<T: Into<OsString>>(structures: &Registry<dyn Structure>, arguments: impl IntoIterator<Item = T>) -> Outcome {
+    program(structures).run(arguments, gather)
+}
+
+fn program(structures: &Registry<dyn Structure>) -> Program<Args> {
+    let (command, read) = args::command(structures);
+    Program::new("pm-gather", command, read)
+}
+
+fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    args.check()?;
+    let Args { first, rest, .. } = &args;
+    let photons = Photons::read(&first.photons)?;
+    let mut blocks = queries::open(&args)?;
+    let query_header = blocks.header().clone();
+    if photons.header.bounds != query_header.bounds {
+        rest.common.remark("the photons and the queries are not of the same scene: their bounds differ");
+    }
+    let (map, building) = build(&args, &photons)?;
+    let map = &*map;
+    let search = search(&args, map, &photons.records);
+    let mut header = trace_header(&args, typed, map, &photons, &query_header);
+
+    // First, so that a reader of the trace who leaves at once does not leave without the pictures being missed.
+    let images: Vec<(&PathBuf, Output)> =
+        rest.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
+    let report = rest.report.as_ref().map(|path| create_output(path)).transpose()?;
+    let estimate =
+        RadianceEstimate::new(&photons.records, &query_header.materials, photons.emitted_paths, options(&args));
+    let how = Precomputation {
+        map,
+        search,
+        reread: rest.reread,
+        photons: &photons.records,
+        estimate: &estimate,
+        share: rest.precomputed_share,
+        materials: &query_header.materials,
+    };
+    let precomputed = if rest.precomputed { Some(precompute(&how, rest.common.threads(), &mut header)?) } else { None };
+    let mut trace = match rest.no_trace {
+        true => None,
+        false => Some(TraceWriter::new(rest.output.create()?, &header)?),
+    };
+    let name = named(&first.queries);
+    let (cache, block, beside) = queries::read_cache(&mut blocks, !rest.no_gradients).with_context(|| name.clone())?;
+    let scale = estimate.scale(&query_header.bounds);
+    let mut films = Films::new(!images.is_empty(), &query_header, &cache, scale)?;
+    // The threads only need the films' unit.
+    let unit = Film::new(0, scale);
+    let answerer = Answerer {
+        search,
+        carry: rest.carry,
+        describe: report.is_some().then(|| (args.line(), &header.regions[..])),
+        map,
+        header: &query_header,
+        reread: rest.reread,
+        regions: trace.is_some().then_some(&header.regions[..]),
+        cache: &cache,
+        precomputed: precomputed.as_ref(),
+        estimate: (!images.is_empty()).then_some((&estimate, &unit)),
+    };
+    let asked = Asked { name, blocks, first: block, beside };
+    let mut done = answer_all(&answerer, asked, &rest.common, &mut films, trace.as_mut())?;
+    done.remark(&rest.common);
+
+    let picture = films.develop(query_header.image, &cache, rest.base.is_some())?;
+    pictures::write(&args, picture, images, &pictures::origin(&args, &photons, &query_header, done.tally))?;
+    if let Some(output) = report {
+        let lookups = done.lookups.take().unwrap_or_else(|| Lookups::new(args.line(), &header.regions, None));
+        let description =
+            Description { args: &args, map, building, photons: &photons.records, search, header: &header, done: &done };
+        description.write(&estimate, lookups, output)?;
+    }
+    if let Some(trace) = trace {
+        let mut stages = done.end.stages.clone();
+        // As it has been since there are sites: a trace without them says nothing of gathering in its end block.
+        stages.extend(precomputed.iter().map(|sites| stage::stage(typed, &photons, map, &search, &done, sites)));
+        trace.finish(stages)?.commit()?;
+    }
+    Ok(())
+}
+
+/// The map that was asked for, and what building it took, if that is to be told.
+fn build(args: &Args, photons: &Photons) -> anyhow::Result<(Box<dyn AnyMap>, Option<Building>)> {
+    let build = || args.map.entry.build(Setting { values: &args.map.values, photons: &photons.records, k: args.k() });
+    let built = match args.rest.report {
+        Some(_) => Building::measure(build).map(|(map, building)| (map, Some(building))),
+        None => build().map(|map| (map, None)),
+    };
+    let (map, building) = match built {
+        // The photons are not to blame.
+        Err(BuildError::Parameter(error)) => return Err(error.into()),
+        built => built.with_context(|| named(&args.first.photons))?,
+    };
+    if args.rest.precomputed && map.padding().is_some() {
+        return Err(usage("--precomputed: a trace of it holds packed records; leave out what pads those of the map"));
+    }
+    Ok((map, building))
+}
+
+/// How photons are searched for.
+fn search(args: &Args, map: &dyn AnyMap, photons: &[Photon]) -> Search {
+    let plain = Search::new(args.k(), args.rest.max_dist);
+    if args.rest.carry && !map.is_exact() {
+        args.rest.common.remark("--carry: an approximate map reads the same wherever it starts");
+    }
+    match args.rest.start_radius {
+        _ if !map.is_exact() => plain,
+        StartRadius::Unbounded => plain,
+        StartRadius::Auto => plain.fit_start(map, photons),
+        StartRadius::Fixed(start) => Search { start: start.min(args.rest.max_dist), ..plain },
+    }
+}
+
+/// What becomes of the photons found.
+fn options(args: &Args) -> EstimateOptions {
+    let rest = &args.rest;
+    EstimateOptions {
+        k: args.k(),
+        max_dist: rest.max_dist,
+        estimator: rest.estimator,
+        kernel: rest.kernel,
+        edges: rest.edges,
+    }
+}
+
+/// The header of the trace, written or not.
+fn trace_header(args: &Args, typed: &Typed, map: &dyn AnyMap, photons: &Photons, queries: &Header) -> Header {
+    let mut header = queries.clone();
+    header.regions = map.regions(args.rest.reread);
+    header.set_meaning(meaning::MAP, args.map.entry.word());
+    header.set_meaning(meaning::K, args.rest.k);
+    let inputs = vec![(args.first.photons.display().to_string(), photons.header.history.clone())];
+    header.history.push(Step { inputs, ..typed.step_from(&args.first.queries, None) });
+    header
+}
+
+/// Irradiance computed beforehand, whose sites get a region of the trace.
+fn precompute<'a>(
+    how: &Precomputation<'a>,
+    threads: usize,
+    header: &mut Header,
+) -> anyhow::Result<PrecomputedIrradiance<'a>> {
+    let mut sites = PrecomputedIrradiance::new(how, threads)?;
+    header.regions = sites.lay_out(std::mem::take(&mut header.regions));
+    header.set_meaning(meaning::PRECOMPUTED, &sites);
+    Ok(sites)
+}

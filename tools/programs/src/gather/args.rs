@@ -1,0 +1,183 @@
+//! What `pm-gather` may be asked.
+
+use crate::cli::{Chooser, Common, OutputArgs, choice, picture_format, usage};
+use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches as _};
+use pm_gathering::{Edges, Estimator, Kernel};
+use pm_maps::{LINE, StartRadius, Structure};
+use pm_registry::{Chosen, Registry};
+use std::path::{Path, PathBuf};
+
+/// What was asked.
+pub(super) struct Args {
+    pub(super) map: Chosen<dyn Structure>,
+    pub(super) first: First,
+    pub(super) rest: Rest,
+}
+
+/// What stands before the structures and their parameters.
+#[derive(clap::Args)]
+pub(super) struct First {
+    /// Photons to build the map from
+    #[arg(default_value = "map.pmp")]
+    pub(super) photons: PathBuf,
+    /// Queries to answer; `-` is standard input
+    #[arg(default_value = "-")]
+    pub(super) queries: PathBuf,
+}
+
+/// What stands behind them.
+#[derive(clap::Args)]
+pub(super) struct Rest {
+    /// Number of nearest photons to gather
+    #[arg(short, default_value = "100", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    pub(super) k: u32,
+    /// Largest distance at which a photon counts, in scene units: part of the answer
+    #[arg(long, value_name = "X|inf", default_value = "inf", value_parser = distance)]
+    pub(super) max_dist: f32,
+    /// Radius a search starts with: changes the reads, not the answer
+    ///
+    /// It is doubled until the search finds enough. `auto` is the radius that 99 % of the searches at 1,000 photons need.
+    #[arg(long, value_name = "X|inf|auto", default_value = "auto", value_parser = start_radius)]
+    pub(super) start_radius: StartRadius,
+    /// Start from what the search before knows: changes the reads, not the answer
+    ///
+    /// All k photons of the query q' before lie within |q - q'| + r_k(q') of q. The chain begins anew with each block of the
+    /// stream, after 4,096 queries at most and at the end of a batch.
+    #[arg(long)]
+    pub(super) carry: bool,
+    /// Also log the second touch of each inner node of kd, when the search comes back to it for its own photon
+    #[arg(long, hide_short_help = true)]
+    pub(super) reread: bool,
+    /// How photons become radiance
+    #[arg(long, default_value = "unbiased", value_parser = choice::<Estimator>())]
+    pub(super) estimator: Estimator,
+    /// Take the irradiance of the nearest of every fourth photon, computed beforehand
+    ///
+    /// Christensen's method: one photon with a similar normal is searched for instead of k, in a tree of its own, which is
+    /// what the trace holds. The searches for k that are made beforehand are counted in the trace's end block. Queries of
+    /// glossy surfaces search for k as ever. Some error for far fewer reads; k should be well above 16.
+    #[arg(long, conflicts_with = "report")]
+    pub(super) precomputed: bool,
+    /// One of how many photons holds precomputed irradiance
+    #[arg(
+        long, value_name = "N", default_value = "4", requires = "precomputed", hide_short_help = true,
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
+    pub(super) precomputed_share: u32,
+    /// How much a photon counts by its distance
+    #[arg(long, default_value = "constant", hide_short_help = true, value_parser = choice::<Kernel>())]
+    pub(super) kernel: Kernel,
+    /// What the flux is divided by where the photons' disc reaches beyond an edge of the surface
+    #[arg(long, default_value = "cut", hide_short_help = true, value_parser = choice::<Edges>())]
+    pub(super) edges: Edges,
+    /// Picture to write, .exr (linear) or .png (preview); may be given more than once
+    #[arg(long, value_name = "FILE")]
+    pub(super) image: Vec<PathBuf>,
+    /// Take cached irradiance as it is at its record, without the gradients
+    #[arg(long, hide_short_help = true)]
+    pub(super) no_gradients: bool,
+    /// Stops by which PNG previews are brightened; EXR pictures keep their radiance
+    #[arg(long, value_name = "STOPS", default_value = "0", allow_hyphen_values = true, hide_short_help = true)]
+    pub(super) exposure: f32,
+    /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
+    #[arg(long, value_name = "FILE")]
+    pub(super) base: Option<PathBuf>,
+    /// Write no trace: for the picture, or for speed alone
+    #[arg(long, conflicts_with = "output")]
+    pub(super) no_trace: bool,
+    /// Describe lookups, map and its building in a .csv, .json or text file
+    ///
+    /// A row of named columns, in text a line for each. Approximate maps are compared with exact answers for 1,000 queries:
+    /// light_error_rms and light_bias are differences of what a query adds to its pixel, over its mean, and not of pixels
+    /// (`pm-view exact.exr approximate.exr`). `-` is standard output, with --no-trace.
+    #[arg(long, value_name = "FILE", hide_short_help = true)]
+    pub(super) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+const ABOUT: &str =
+    "Answer gather queries from a photon map; write the memory reads as a trace, and the picture on request";
+const MORE: &str = "\
+Each query asks for the k photons nearest to a point. The trace holds which records of the map each search read; the picture \
+is the sum of the radiance estimates and does not depend on the order of the queries by a single bit.";
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-queries | pm-reorder hilbert | pm-gather | pm-cachesim
+  pm-queries --base direct.exr | pm-gather --base direct.exr --image out.exr --image out.png --no-trace -t 2
+  pm-gather map.pmp queries.pmq -k 50 --start-radius inf -o trace.pmt";
+
+fn distance(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(x) if x >= 0.0 => Ok(x),
+        _ => Err("a distance of 0 or more, or `inf`, is expected".into()),
+    }
+}
+
+fn start_radius(text: &str) -> Result<StartRadius, String> {
+    match text {
+        "auto" => Ok(StartRadius::Auto),
+        "inf" => Ok(StartRadius::Unbounded),
+        _ => match text.parse::<f32>() {
+            Ok(x) if x > 0.0 => Ok(StartRadius::Fixed(x)),
+            _ => Err("a radius above 0, `inf` or `auto` is expected".into()),
+        },
+    }
+}
+
+/// The command line with these structures, and how it is understood.
+pub(super) fn command(
+    structures: &Registry<dyn Structure>,
+) -> (Command, impl FnOnce(&ArgMatches) -> Result<Args, clap::Error> + use<>) {
+    let map = Arg::new("map").long("map").value_name("MAP").help("Structure of the photon map");
+    let maps = Chooser::option(structures, map);
+    let command = maps.add_parameters(maps.add_word(First::augment_args(Command::new("pm-gather"))));
+    let command = Rest::augment_args(command);
+    let command = command.about(ABOUT).long_about(format!("{ABOUT}.\n\n{MORE}")).after_help(EXAMPLES);
+    let read = move |matches: &ArgMatches| {
+        Ok(Args {
+            map: maps.read(matches)?,
+            first: First::from_arg_matches(matches)?,
+            rest: Rest::from_arg_matches(matches)?,
+        })
+    };
+    (command, read)
+}
+
+impl Args {
+    /// Bytes of a line, in which reads are described.
+    pub(super) fn line(&self) -> u32 {
+        self.map.values.count(LINE.name)
+    }
+
+    /// Number of photons of a search.
+    pub(super) const fn k(&self) -> usize {
+        self.rest.k as usize
+    }
+
+    /// Is there anything that cannot be done, whatever the files hold?
+    pub(super) fn check(&self) -> anyhow::Result<()> {
+        let Self { first, rest, .. } = self;
+        for image in &rest.image {
+            picture_format(image)?;
+        }
+        if first.photons == Path::new("-") && first.queries == Path::new("-") {
+            return Err(usage("photons and queries cannot both come from standard input; name a file for one of them"));
+        }
+        if !rest.exposure.is_finite() {
+            return Err(usage("--exposure: a finite number of stops is expected"));
+        }
+        let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(|path| path == Path::new("-"));
+        let output = &rest.output.output;
+        if standard(&rest.report) && !rest.no_trace && (output.is_none() || standard(output)) {
+            return Err(usage("--report - and the trace cannot share standard output; name a file or give --no-trace"));
+        }
+        if rest.base.is_some() && rest.image.is_empty() {
+            return Err(usage("--base is added to a picture: ask for one with --image"));
+        }
+        Ok(())
+    }
+}

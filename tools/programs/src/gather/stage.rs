@@ -1,0 +1,30 @@
+//! What is told of gathering in the end block of the trace.
+
+use super::answering::Done;
+use super::photons::Photons;
+use crate::cli::Typed;
+use pm_formats::{Number, StageReport};
+use pm_gathering::PrecomputedIrradiance;
+use pm_maps::{AnyMap, Search};
+
+/// The stage of this program.
+pub(super) fn stage(
+    typed: &Typed,
+    photons: &Photons,
+    map: &dyn AnyMap,
+    search: &Search,
+    done: &Done,
+    sites: &PrecomputedIrradiance<'_>,
+) -> StageReport {
+    let counts = done.counts;
+    let stage = StageReport::new(typed.program())
+        .with("photons", Number::Count(photons.records.len() as u64))
+        .with("queries", Number::Count(done.tally.records))
+        .with("accesses", Number::Count(counts.accesses))
+        .with("attempts", Number::Count(counts.attempts))
+        .with("start_radius", Number::Real(f64::from(search.start)))
+        .with("short_lookups", Number::Count(counts.short))
+        .with("lookups_without_area", Number::Count(counts.no_area));
+    let stage = map.measures().into_iter().fold(stage, |stage, (name, number)| stage.with(name, number));
+    sites.report(stage.with("lookups_without_site", Number::Count(counts.no_site)))
+}
