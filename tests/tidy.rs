@@ -43,6 +43,13 @@ const UNSAFE: &[(&str, &str)] = &[];
 /// Longest file, in lines: beyond this it has more than one subject.
 const MOST_LINES: usize = 600;
 
+/// Longest function, in lines, and the length that half of all files stay within.
+const MOST_LINES_OF_A_FUNCTION: usize = 100;
+const MEDIAN_LINES: usize = 110;
+
+/// Functions that may be longer, each a table of data.
+const TABLES_OF_DATA: &[&str] = &[];
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -207,4 +214,52 @@ fn every_file_begins_with_its_subject_and_stays_with_it() {
         let lines = text.lines().count();
         assert!(lines <= MOST_LINES, "{path} has {lines} lines; the most is {MOST_LINES}");
     }
+}
+
+/// Names and lengths of the functions of a file that rustfmt has laid out: each ends with a brace under its own beginning.
+fn functions(text: &str) -> Vec<(String, usize)> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut functions = vec![];
+    for (at, line) in lines.iter().enumerate() {
+        let indented = line.len() - line.trim_start().len();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let Some(keyword) = words.iter().position(|word| *word == "fn") else { continue };
+        let heads = ["pub", "pub(crate)", "pub(super)", "const", "async", "unsafe", "default"];
+        if !words[..keyword].iter().all(|word| heads.contains(word)) {
+            continue;
+        }
+        let name = words[keyword + 1].split(['(', '<']).next().unwrap_or_default();
+        let end = |line: &&str| {
+            line.len() > indented && line[indented..].starts_with('}') && line[..indented].trim().is_empty()
+        };
+        // Without a body, or with all of it on the line.
+        if line.ends_with(';') || line.ends_with('}') {
+            continue;
+        }
+        if let Some(length) = lines[at..].iter().position(end) {
+            functions.push((name.to_owned(), length + 1));
+        }
+    }
+    functions
+}
+
+#[test]
+fn functions_are_short_and_half_of_the_files_too() {
+    let mut lengths = vec![];
+    for (path, text) in all_sources() {
+        lengths.push(text.lines().count());
+        for (name, length) in functions(&text) {
+            let fits = length <= MOST_LINES_OF_A_FUNCTION || TABLES_OF_DATA.contains(&&*name);
+            assert!(fits, "{path}: {name} has {length} lines; the most is {MOST_LINES_OF_A_FUNCTION}");
+        }
+    }
+    lengths.sort_unstable();
+    let median = lengths[lengths.len() / 2];
+    assert!(median <= MEDIAN_LINES, "the median file has {median} lines; the most is {MEDIAN_LINES}");
+}
+
+#[test]
+fn the_length_of_a_function_is_that_of_its_text() {
+    let text = "fn a() {\n    b();\n}\n\nimpl X {\n    pub(crate) fn c<T>(\n        x: T,\n    ) -> T {\n        x\n    }\n    fn d() {}\n}\n";
+    assert_eq!(functions(text), [("a".to_owned(), 3), ("c".to_owned(), 5)]);
 }
