@@ -40,7 +40,7 @@ fn another_value_or_another_line_makes_its_points_again() {
     };
     sweep("500", "");
     let first = folder.read("out/my.csv");
-    sweep("600", "-n");
+    assert!(made(&sweep("600", "-n"), "scanline.10"), "make -n tells");
     assert!(!said(&sweep("500", "")).contains("pm-gather"), "what is only told leaves no trace");
     assert!(made(&sweep("600", ""), "scanline.10"));
     assert_ne!(folder.read("out/my.csv"), first);
