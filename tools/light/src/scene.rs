@@ -9,7 +9,7 @@
 //! | modules | are about |
 //! | --- | --- |
 //! | `bounds`, `error`, `files`, `options`, `warnings` | what all others speak of |
-//! | `mesh`, `material`, `triangles`, `light`, `quad_light`, `table` | scenes and their parts |
+//! | `mesh`, `polygon`, `material`, `triangles`, `light`, `quad_light`, `table` | scenes and their parts |
 //! | `statements`, `mtl`, `obj`, `texture`, `ecs` | files, one by one |
 //! | `meaning`, `builder`, `load` | what the files mean together |
 //! | `camera` | from where a scene is seen |
@@ -28,6 +28,7 @@ mod mesh;
 mod mtl;
 mod obj;
 mod options;
+mod polygon;
 mod quad_light;
 mod statements;
 mod table;

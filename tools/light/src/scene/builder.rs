@@ -8,6 +8,7 @@ use super::meaning::decide;
 use super::mesh::{self, Dropped, Shape};
 use super::obj::ParsedObj;
 use super::options::LoadOptions;
+use super::polygon::{Cut, cut};
 use super::texture::{self, Texture};
 use super::triangles::Scene;
 use super::warnings::Warnings;
@@ -120,27 +121,17 @@ impl Builder {
             rest = after;
             let line = lines.next().copied().unwrap_or(0);
             let corners: Vec<u32> = face.iter().map(|&v| first + v).collect();
-            let start = self.fan(&corners).unwrap_or_else(|| {
+            let points: Vec<Vec3> = corners.iter().map(|&v| self.positions[v as usize]).collect();
+            let Cut { triangles, is_whole } = cut(&points);
+            if !is_whole {
                 let at_line = FileLine::new(path, line);
-                warnings.once("concave", || {
-                    format!("{at_line}: a concave polygon is cut wrongly; triangulate it before export")
+                warnings.once("crossing", || {
+                    format!("{at_line}: the outline of a polygon crosses itself: it is cut as well as can be")
                 });
-                0
-            });
-            let at = |i: usize| corners[(start + i) % corners.len()];
-            for i in 1..corners.len() - 1 {
-                self.triangle([at(0), at(i), at(i + 1)], material);
             }
+            triangles.into_iter().for_each(|ends| self.triangle(ends.map(|i| corners[i]), material));
         }
         Ok(())
-    }
-
-    fn fan(&self, corners: &[u32]) -> Option<usize> {
-        if corners.len() == 3 {
-            return Some(0);
-        }
-        let points: Vec<Vec3> = corners.iter().map(|&v| self.positions[v as usize]).collect();
-        mesh::fan_start(&points)
     }
 
     fn triangle(&mut self, [a, b, c]: [u32; 3], material: u16) {

@@ -61,17 +61,45 @@ fn vertex_weights_and_colours() {
     assert_eq!(scene.warnings[0], "t.obj:3: colours of vertices are ignored");
 }
 
-/// Is a quadrangle with a dent cut inside its outline, and a polygon that cannot be fanned reported?
+fn area(scene: &Scene) -> f64 {
+    (0..scene.triangle_count()).map(|i| scene.area(i)).sum()
+}
+
+/// Are concave polygons cut inside their outline, holes joined by a bridge left out, and outlines that cross themselves said?
 #[test]
 fn concave_polygons() {
-    let area = |scene: &Scene| (0..scene.triangle_count()).map(|i| scene.area(i)).sum::<f64>();
     let arrow = load("v 0 0 0\nv 1 1 0\nv -1 0 0\nv 1 -1 0\nf 2 3 4 1\nf 3 4 1 2\n").unwrap();
     assert_eq!((arrow.triangle_count(), area(&arrow)), (4, 2.0));
     assert!((0..4).all(|i| arrow.geometric_normal(i) == Vec3::Z) && arrow.warnings.len() == 1);
     let comb = "v 0 0 0\nv 6 0 0\nv 6 3 0\nv 5 1 0\nv 4 3 0\nv 3 1 0\nv 2 3 0\nv 1 1 0\nv 0 3 0\n";
-    let scene = load(format!("{comb}\n\nf 1 2 3 4 5 6 7 8 9\nf 1 2 3 4 5 6 7 8 9\n")).unwrap();
-    let warning = "t.obj:12: a concave polygon is cut wrongly; triangulate it before export (and 1 more like this)";
-    assert!(scene.warnings.contains(&warning.to_owned()), "{:?}", scene.warnings);
+    let scene = load(format!("{comb}\n\nf 1 2 3 4 5 6 7 8 9\nf 9 8 7 6 5 4 3 2 1\n")).unwrap();
+    assert!((area(&scene) - 24.0).abs() < 1e-6, "{}", area(&scene));
+    let up = (0..scene.triangle_count()).filter(|&i| scene.geometric_normal(i) == Vec3::Z).count();
+    assert_eq!(2 * up, scene.triangle_count());
+    assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings); // no material
+    let crossing = "v 0 1 0\nv 1 -1 0\nv -1 .3 0\nv 1 .3 0\nv -1 -1 0\nf 1 2 3 4 5\n";
+    let warning = "t.obj:6: the outline of a polygon crosses itself: it is cut as well as can be";
+    assert!(load(crossing).unwrap().warnings.contains(&warning.to_owned()));
+}
+
+/// Do a U, a frame whose hole is joined to its outline by a bridge, and a disc of 64,000 corners have their areas?
+#[test]
+fn polygons_of_one_face_have_their_areas() {
+    let u = "v 0 0 0\nv 3 0 0\nv 3 0 -3\nv 2 0 -3\nv 2 0 -1\nv 1 0 -1\nv 1 0 -3\nv 0 0 -3\nf 1 2 3 4 5 6 7 8\n";
+    assert!((area(&load(u).unwrap()) - 7.0).abs() < 1e-6);
+    let frame = "v 0 0 0\nv 4 0 0\nv 4 0 -4\nv 0 0 -4\nv 1 0 -1\nv 1 0 -3\nv 3 0 -3\nv 3 0 -1\nf 1 2 3 4 1 5 6 7 8 5\n";
+    assert!((area(&load(frame).unwrap()) - 12.0).abs() < 1e-6);
+    let n = 64_000;
+    let corner = |i: i32| {
+        let (sin, cos) = (2.0 * std::f64::consts::PI * f64::from(i) / f64::from(n)).sin_cos();
+        format!("v {cos} {sin} 0\n")
+    };
+    let face: String = (1..=n).map(|i| format!(" {i}")).collect();
+    let begun = std::time::Instant::now();
+    let disc = load((0..n).map(corner).collect::<String>() + "f" + &face).unwrap();
+    assert!((area(&disc) / std::f64::consts::PI - 1.0).abs() < 1e-5, "{}", area(&disc));
+    // Quadratic time was 12 s.
+    assert!(begun.elapsed() < std::time::Duration::from_secs(4), "{:?}", begun.elapsed());
 }
 
 /// Are faces without an area dropped and counted, lines and points never made into triangles?
