@@ -8,9 +8,9 @@
 //!
 //! | modules | are about |
 //! | --- | --- |
-//! | `bounds`, `error`, `files`, `options`, `warnings` | what all others speak of |
+//! | `bounds`, `error`, `files`, `foreign`, `options`, `warnings` | what all others speak of |
 //! | `mesh`, `polygon`, `material`, `triangles`, `light`, `quad_light`, `table` | scenes and their parts |
-//! | `statements`, `mtl`, `obj`, `texture`, `ecs` | files, one by one |
+//! | `statements`, `mtl`, `libraries`, `obj`, `texture`, `ecs` | files, one by one |
 //! | `meaning`, `builder`, `load` | what the files mean together |
 //! | `camera` | from where a scene is seen |
 
@@ -20,6 +20,8 @@ mod camera;
 mod ecs;
 mod error;
 mod files;
+mod foreign;
+mod libraries;
 mod light;
 mod load;
 mod material;

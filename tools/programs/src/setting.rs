@@ -16,6 +16,9 @@ pub struct SceneArgs {
     /// Take Ks and Ns for a glossy lobe; exporters write them on plain paint too
     #[arg(long)]
     pub glossy: bool,
+    /// Refuse a scene that names what is not there, such as a material library or a normal
+    #[arg(long, hide_short_help = true)]
+    pub strict: bool,
     /// Add a parallelogram of light: corner, two edges from it, radiance; it shines towards u x v; may be repeated
     #[arg(long, value_name = "X,Y,Z,UX,UY,UZ,VX,VY,VZ,R,G,B", allow_hyphen_values = true, hide_short_help = true)]
     pub quad_light: Vec<QuadLight>,
@@ -73,7 +76,7 @@ impl SceneArgs {
             Scene::embedded()
         } else {
             let allow_dark = !self.quad_light.is_empty();
-            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark };
+            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark, strict: self.strict };
             Scene::load(&self.scene, &options, &FileSystem)?
         };
         for light in &self.quad_light {
@@ -96,7 +99,7 @@ impl SceneArgs {
         let choice = if self.scene.is_empty() {
             Camera::embedded(&overrides)?
         } else {
-            Camera::find(&self.scene, &scene.bounds, &overrides, &FileSystem)?
+            Camera::find(&self.scene, scene, &overrides, &FileSystem)?
         };
         choice.warnings.iter().for_each(|warning| common.remark(warning));
         if choice.camera.sees_only_backs(scene) {

@@ -34,6 +34,8 @@ pub(super) struct Builder {
     read: usize,
     /// Mean colours of the textures met, or why there is none.
     textures: HashMap<PathBuf, Texture>,
+    /// Statements that look as if they made a light, and are not read.
+    passed_over: Vec<String>,
 }
 
 impl Builder {
@@ -51,6 +53,7 @@ impl Builder {
         files: &dyn Files,
         warnings: &mut Warnings,
     ) -> Result<(), SceneError> {
+        self.passed_over.extend(obj.passed_over.iter().cloned());
         let mut numbers: HashMap<Option<usize>, u16> = HashMap::new();
         let mut lines = obj.face_lines.iter();
         for model in obj.models.iter().filter(|model| !model.mesh.indices.is_empty()) {
@@ -164,7 +167,10 @@ impl Builder {
         if turned > 0 {
             warnings.say(format!("{files}: {turned} triangles are wound against their vn; vn tells their front"));
         }
-        let lost = self.keep_used_materials();
+        let mut lost = self.keep_used_materials();
+        if lost.is_empty() && !self.passed_over.is_empty() {
+            lost = format!(" (passed over: {})", self.passed_over.join("; "));
+        }
         let bounds = Bounds::around(self.indices.iter().flatten().map(|&v| self.positions[v as usize]));
         let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let size = bounds.size().max_element();

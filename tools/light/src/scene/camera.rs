@@ -5,7 +5,7 @@ mod embree;
 mod file;
 mod find;
 mod fit;
-mod inside;
+mod looks;
 mod overrides;
 mod pinhole;
 

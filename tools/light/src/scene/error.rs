@@ -41,6 +41,14 @@ pub enum SceneError {
         /// What the system said.
         source: io::Error,
     },
+    /// A file of another kind was given.
+    #[error("{}: {format}, which is not read; convert it to OBJ (and check Ke: converters lose the strength of lamps)", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        format: &'static str,
+    },
     /// An `mtllib` statement names a file that cannot be read.
     #[error(
         "{place}: material library {name:?}: {}",

@@ -19,7 +19,7 @@ impl Scene {
     /// A file that cannot be read, a statement that cannot be obeyed (with file and line), a scene without faces or
     /// without light.
     pub fn load(paths: &[PathBuf], options: &LoadOptions, files: &dyn Files) -> Result<Self, SceneError> {
-        let mut warnings = Warnings::default();
+        let mut warnings = Warnings::new(options.strict);
         let mut builder = Builder::new(names(paths));
         for path in paths {
             let parsed = obj::parse(path, files, &mut warnings)?;

@@ -39,6 +39,7 @@ pub(super) fn decide(
         None => {}
     }
     let mut out = said.kind(mtl, options, &mut remark);
+    said.lost_glass(&out, &mut remark);
     if remark.limit(&mut out.diffuse, &mut out.specular) {
         remark.say("reflects more light than it gets: Kd and Ks are scaled to 1");
     }
@@ -89,6 +90,12 @@ impl Said {
         if max(self.emission) > 0.0 {
             if max(self.emission) > BRIGHTEST {
                 remark.say("emits more than 1e6 W/(m2 sr): is Ke meant so?");
+            }
+            if max(self.specular) > 0.0 && !matches!(self.illum, Some(0 | 1)) {
+                remark.once("light Ks", "emits: what it mirrors by Ks is left out");
+            }
+            if self.diffuse.is_none() {
+                remark.once("light Kd", "emits and has no Kd: it reflects nothing");
             }
             return Material { diffuse: self.diffuse.unwrap_or_default(), emission: self.emission, ..dark };
         }
@@ -141,6 +148,24 @@ impl Said {
             ));
         }
         Some(tint)
+    }
+
+    /// Says what looks like glass that an exporter made something else of.
+    fn lost_glass(&self, out: &Material, remark: &mut Remark<'_>) {
+        if self.ior <= 1.01 || out.kind == MaterialKind::Glass || out.emits() {
+            return;
+        }
+        let filters = self.filter.is_some_and(|tf| tf.iter().any(|&x| x < 1.0));
+        let is_black = out.kind != MaterialKind::Mirror && max(out.diffuse) <= 0.0;
+        let sign = if filters {
+            "Tf below 1"
+        } else if is_black {
+            "a black Kd"
+        } else {
+            return;
+        };
+        let (ior, kind) = (self.ior, out.kind.word());
+        remark.say(&format!("has Ni {ior} and {sign} like glass, but is {kind}: illum 7 makes glass of it"));
     }
 
     fn mirror(&self, dark: Material, remark: &mut Remark<'_>) -> Material {

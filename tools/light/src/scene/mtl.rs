@@ -15,22 +15,30 @@ pub(crate) struct CleanMtl {
     pub(crate) text: String,
     /// Where each material is defined.
     pub(crate) places: HashMap<String, FileLine>,
+    /// Statements that look as if they made a light, and are not read: what, and where.
+    pub(crate) passed_over: Vec<String>,
 }
+
+/// What a material without a name is called.
+pub(crate) const NAMELESS: &str = "(unnamed)";
 
 /// Rewrites a material library so that tobj can read it.
 ///
 /// # Errors
 ///
-/// [`SceneError::Statement`] for a bad number, a negative colour, or a material without a name.
+/// [`SceneError::Statement`] for a bad number or a negative colour, and for a material without a name if that is not
+/// tolerated.
 pub(crate) fn clean(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<CleanMtl, SceneError> {
-    let mut out = CleanMtl { text: String::new(), places: HashMap::new() };
+    let mut out = CleanMtl { text: String::new(), places: HashMap::new(), passed_over: vec![] };
     for statement in &statements(file, bytes)? {
         let place = FileLine::new(file, statement.line);
         let keyword = statement.keyword();
         if keyword == "newmtl" {
-            let name = statement.rest();
+            let mut name = statement.rest();
             if name.is_empty() {
-                return Err(place.error("newmtl without a name; give the material one"));
+                name = NAMELESS;
+                let wrong = place.error("newmtl without a name; give the material one");
+                warnings.tolerate("mtl newmtl", wrong, &format!("it is called {NAMELESS:?}"))?;
             }
             out.line("newmtl", name);
             if out.places.insert(name.to_owned(), place.clone()).is_some() {
@@ -41,6 +49,10 @@ pub(crate) fn clean(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Resul
         if out.places.is_empty() {
             warnings.once("mtl before newmtl", || format!("{place}: {keyword} before any newmtl is ignored"));
             continue;
+        }
+        if keyword == "map_Ke" || (keyword != "Ke" && keyword.eq_ignore_ascii_case("Ke")) {
+            let why = if keyword == "map_Ke" { "" } else { ", which is not `Ke`" };
+            out.passed_over.push(format!("`{keyword}` in {place}{why}"));
         }
         match keyword {
             "Ka" => {} // ambient light has no place in a simulation of light
@@ -151,7 +163,16 @@ mod tests {
         assert_eq!(error("newmtl a\nKd 1 -1 1\n"), "m.mtl:2: Kd is negative; give numbers from 0 up");
         assert!(error("newmtl a\nKe inf\n").starts_with("m.mtl:2: Ke: \"inf\" is infinite"));
         assert!(error("newmtl a\nd nan\n").starts_with("m.mtl:2: d: \"nan\" is not a number"));
-        assert_eq!(error("newmtl\n"), "m.mtl:1: newmtl without a name; give the material one");
+    }
+
+    /// Is a material without a name gone on with, unless the reading is strict?
+    #[test]
+    fn nameless_materials_have_a_name() {
+        let (text, warnings) = cleaned("newmtl\nKd 1 0 0\n");
+        assert_eq!(text, "newmtl (unnamed)\nKd 1 0 0\n");
+        assert_eq!(warnings, ["m.mtl:1: newmtl without a name; give the material one: it is called \"(unnamed)\""]);
+        let strict = clean(Path::new("m.mtl"), b"newmtl\n", &mut Warnings::new(true)).unwrap_err().to_string();
+        assert_eq!(strict, "m.mtl:1: newmtl without a name; give the material one");
     }
 
     /// Are unknown statements said once each, and the zeros of PBR exporters not at all?

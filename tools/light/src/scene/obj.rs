@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::error::{FileLine, SceneError};
 use super::files::Files;
-use super::mtl::{self, CleanMtl};
+use super::foreign;
+use super::libraries;
+use super::mtl::{self, CleanMtl, NAMELESS};
 use super::statements::{Statement, number, statements};
 use super::warnings::Warnings;
 
@@ -24,6 +26,8 @@ pub(crate) struct ParsedObj {
     pub(crate) materials: Vec<tobj::Material>,
     /// Where each material is defined.
     pub(crate) places: HashMap<String, FileLine>,
+    /// Statements that look as if they made a light, and are not read.
+    pub(crate) passed_over: Vec<String>,
 }
 
 /// Reads one OBJ file and the material libraries it names.
@@ -33,11 +37,15 @@ pub(crate) struct ParsedObj {
 /// Whatever [`SceneError`] says of reading and of statements.
 pub(crate) fn parse(file: &Path, files: &dyn Files, warnings: &mut Warnings) -> Result<ParsedObj, SceneError> {
     let bytes = files.read(file).map_err(|source| SceneError::Read { path: file.to_path_buf(), source })?;
+    if let Some(format) = foreign::format(file, &bytes) {
+        return Err(SceneError::Foreign { path: file.to_path_buf(), format });
+    }
     let statements = statements(file, &bytes)?;
     let mut cleaner =
         Cleaner { file, warnings, text: String::new(), positions: 0, normals: Vec::new(), face_lines: vec![] };
     let libraries = cleaner.libraries(&statements, files)?;
     let places: HashMap<_, _> = libraries.iter().flat_map(|library| library.places.clone()).collect();
+    let passed_over = libraries.iter().flat_map(|library| library.passed_over.clone()).collect();
     let mut smooth = false;
     for statement in &statements {
         cleaner.statement(statement, &places, &mut smooth)?;
@@ -53,7 +61,7 @@ pub(crate) fn parse(file: &Path, files: &dyn Files, warnings: &mut Warnings) -> 
     // The pass above leaves tobj nothing to complain of; if it does all the same, say so without a line.
     let refused = |error: tobj::LoadError| FileLine::new(file, 1).error(format!("somewhere in this file: {error}"));
     let (models, materials) = tobj::load_obj_buf(&mut text.as_bytes(), &options, library).map_err(refused)?;
-    Ok(ParsedObj { models, face_lines, materials: materials.map_err(refused)?, places })
+    Ok(ParsedObj { models, face_lines, materials: materials.map_err(refused)?, places, passed_over })
 }
 
 struct Cleaner<'a> {
@@ -73,8 +81,7 @@ impl Cleaner<'_> {
         let mut seen: Vec<PathBuf> = Vec::new();
         let mut out = Vec::new();
         for statement in statements.iter().filter(|s| s.keyword() == "mtllib") {
-            let place = FileLine::new(self.file, statement.line);
-            for (path, bytes) in self.library_files(statement, &place, files)? {
+            for (path, bytes) in libraries::named(self.file, statement, files, self.warnings)? {
                 if seen.contains(&path) {
                     continue;
                 }
@@ -84,30 +91,6 @@ impl Cleaner<'_> {
             }
         }
         Ok(out)
-    }
-
-    /// `mtllib` takes a list of names, but names have spaces too: the whole rest counts if there is such a file.
-    fn library_files(
-        &self,
-        statement: &Statement<'_>,
-        place: &FileLine,
-        files: &dyn Files,
-    ) -> Result<Vec<(PathBuf, Vec<u8>)>, SceneError> {
-        let beside = |name: &str| self.file.with_file_name("").join(name.replace('\\', "/"));
-        let open = |name: &str| {
-            let path = beside(name);
-            let missing = |source| SceneError::MissingMtl { place: place.clone(), name: name.to_owned(), source };
-            files.read(&path).map(|bytes| (path, bytes)).map_err(missing)
-        };
-        let rest = statement.rest();
-        if rest.is_empty() {
-            return Err(place.error("mtllib without a name; give the MTL file's"));
-        }
-        match open(rest) {
-            Ok(one) => Ok(vec![one]),
-            Err(error) if statement.words().count() < 2 => Err(error),
-            Err(_) => statement.words().map(open).collect(),
-        }
     }
 
     fn statement(
@@ -123,10 +106,7 @@ impl Cleaner<'_> {
             "vn" => self.normal(statement, &place)?,
             "f" | "fo" => self.face(statement, &place, smooth)?,
             "usemtl" => {
-                let name = statement.rest();
-                if name.is_empty() {
-                    return Err(place.error("usemtl without a name; give the material's"));
-                }
+                let name = if statement.rest().is_empty() { NAMELESS } else { statement.rest() };
                 if !materials.contains_key(name) {
                     self.warnings.once(&format!("usemtl {name}"), || {
                         format!("{place}: material {name:?} is in no library; grey 0.5 takes its place")
@@ -145,16 +125,20 @@ impl Cleaner<'_> {
 
     fn position(&mut self, statement: &Statement<'_>, place: &FileLine) -> Result<(), SceneError> {
         let numbers = statement.numbers().map_err(|what| place.error(format!("v: {what}")))?;
-        let (xyz, w) = match numbers[..] {
-            [x, y, z] => ([x, y, z], 1.0),
-            [x, y, z, w] => ([x, y, z], w),
+        let [x, y, z] = match numbers[..] {
+            [x, y, z] => [x, y, z],
+            // Weights are of curves and surfaces: of all readers one divides by them.
+            [x, y, z, _] => {
+                let what = "v has a fourth number, which is left out: x, y and z are taken as they are";
+                self.warnings.once("obj weight", || format!("{place}: {what}"));
+                [x, y, z]
+            }
             [x, y, z, _, _, _, ..] => {
                 self.warnings.once("obj vertex colours", || format!("{place}: colours of vertices are ignored"));
-                ([x, y, z], 1.0)
+                [x, y, z]
             }
             _ => return Err(place.error(format!("v with {} numbers; it takes x y z", numbers.len()))),
         };
-        let [x, y, z] = xyz.map(|c| c / w);
         if ![x, y, z].iter().all(|c| c.abs() <= FARTHEST) {
             return Err(place.error("a vertex farther than 1e18 from the origin; scale the scene down"));
         }
@@ -213,7 +197,7 @@ impl Cleaner<'_> {
     }
 
     /// One corner, `v`, `v/vt`, `v//vn` or `v/vt/vn`, with relative numbers made absolute.
-    fn corner(&self, word: &str, place: &FileLine) -> Result<Corner, SceneError> {
+    fn corner(&mut self, word: &str, place: &FileLine) -> Result<Corner, SceneError> {
         let mut parts = word.split('/');
         let position = parts.next().unwrap_or("");
         parts.next(); // texture coordinates: no textures here
@@ -221,10 +205,21 @@ impl Cleaner<'_> {
         if parts.next().is_some() {
             return Err(place.error(format!("f: {word:?} has more than three indices; it takes v/vt/vn")));
         }
-        Ok(Corner {
-            position: absolute(position, self.positions, "vertex", place)?,
-            normal: normal.map(|n| absolute(n, self.normals.len(), "normal", place)).transpose()?,
-        })
+        let normal = match normal.map(|word| index(word, place)).transpose()? {
+            None => None,
+            Some(index) => {
+                let count = self.normals.len();
+                let defined = absolute(index, count);
+                if defined.is_none() {
+                    let wrong = undefined("normal", index, count, place);
+                    self.warnings.tolerate("obj normal", wrong, "its face is shaded flat")?;
+                }
+                defined
+            }
+        };
+        let position = index(position, place)?;
+        let defined = absolute(position, self.positions);
+        Ok(Corner { position: defined.ok_or_else(|| undefined("vertex", position, self.positions, place))?, normal })
     }
 
     fn line(&mut self, keyword: &str, rest: &str) {
@@ -237,17 +232,21 @@ struct Corner {
     normal: Option<usize>,
 }
 
-/// An index counted from 1 of `count` things so far; negative ones count back from the last.
-fn absolute(word: &str, count: usize, what: &str, place: &FileLine) -> Result<usize, SceneError> {
-    let index: i64 = match word.parse() {
-        Ok(index) => index,
-        Err(_) if number(word).is_ok() => return Err(place.error(format!("f: index {word:?} is not a whole number"))),
-        Err(_) => return Err(place.error(format!("f: {word:?} is not an index; it takes v, v/vt, v//vn or v/vt/vn"))),
-    };
+/// An index as it is written.
+fn index(word: &str, place: &FileLine) -> Result<i64, SceneError> {
+    word.parse().map_err(|_| match number(word) {
+        Ok(_) => place.error(format!("f: index {word:?} is not a whole number")),
+        Err(_) => place.error(format!("f: {word:?} is not an index; it takes v, v/vt, v//vn or v/vt/vn")),
+    })
+}
+
+/// An index counted from 1 of `count` things so far, if there is such a one; negative ones count back from the last.
+fn absolute(index: i64, count: usize) -> Option<usize> {
     let count = count as i64;
-    let absolute = if index < 0 { index.checked_add(count).map_or(0, |i| i + 1) } else { index };
-    if (1..=count).contains(&absolute) {
-        return Ok(absolute as usize);
-    }
-    Err(place.error(format!("f: {what} {index} does not exist; {count} are defined above this line, counted from 1")))
+    let absolute = if index < 0 { index.checked_add(count)? + 1 } else { index };
+    (1..=count).contains(&absolute).then_some(absolute as usize)
+}
+
+fn undefined(what: &str, index: i64, count: usize, place: &FileLine) -> SceneError {
+    place.error(format!("f: {what} {index} does not exist; {count} are defined above this line, counted from 1"))
 }

@@ -9,4 +9,6 @@ pub struct LoadOptions {
     pub clear_glass: bool,
     /// Accept a scene in which nothing emits light.
     pub allow_dark: bool,
+    /// Refuse what is wrong but can be gone on with: a material library that is not there, a normal that is not defined.
+    pub strict: bool,
 }

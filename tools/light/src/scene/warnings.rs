@@ -1,15 +1,31 @@
 //! Remarks on a scene, each said once however often its cause occurs.
 
+use super::error::SceneError;
 use std::collections::HashMap;
 
 /// Collects remarks; the library keeps them, only programs print.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings {
+    strict: bool,
     said: Vec<(String, usize)>,
     by_key: HashMap<String, usize>,
 }
 
 impl Warnings {
+    /// No remarks yet; if `strict`, what is wrong is no remark but an error.
+    pub(crate) fn new(strict: bool) -> Self {
+        Self { strict, ..Self::default() }
+    }
+
+    /// What is wrong but can be gone on with, if this is then done: said once under a key.
+    pub(crate) fn tolerate(&mut self, key: &str, wrong: SceneError, then: &str) -> Result<(), SceneError> {
+        if self.strict {
+            return Err(wrong);
+        }
+        self.once(key, || format!("{wrong}: {then}"));
+        Ok(())
+    }
+
     /// Keeps `text` unless something was already said under this key; then only counts.
     pub(crate) fn once(&mut self, key: &str, text: impl FnOnce() -> String) {
         match self.by_key.get(key) {

@@ -1,7 +1,9 @@
 //! Where rays hit: a bounding volume hierarchy of the obvhs library, with a triangle test of our own.
 //!
-//! The library's eight-wide form is faster but drops hits nearer than 1e-4; its binary form drops none. Our test is
-//! watertight: a ray through a shared edge hits one of the triangles.
+//! The library's eight-wide form is faster but drops hits nearer than 1e-4, and sees nothing along a direction with a
+//! component of -0.0; its binary form does neither. Boxes are padded: where they are not, the rounding of the box test loses
+//! the hits of 88 of 1,363 rays through the points of a lattice. Our triangle test is watertight: a ray through a shared
+//! edge hits one of the triangles.
 
 use crate::scene::Scene;
 use glam::{Vec3, Vec3A};

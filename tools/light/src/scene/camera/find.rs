@@ -4,13 +4,13 @@ use super::choice::CameraChoice;
 use super::overrides::CameraOverrides;
 use super::pinhole::Camera;
 use super::{embree, file, fit};
-use crate::scene::{Bounds, Files, SceneError};
+use crate::scene::{Files, Scene, SceneError};
 use std::io;
 use std::path::PathBuf;
 
 impl Camera {
     /// The camera of a scene: from `NAME.camera.toml` beside the first OBJ that has one, else from Embree's `NAME.ecs`,
-    /// else so placed that all of `bounds` is seen; `overrides` win over each of them.
+    /// else so placed that all of the scene is seen, or within it if it is a closed room; `overrides` win over each of them.
     ///
     /// # Errors
     ///
@@ -18,7 +18,7 @@ impl Camera {
     /// no sense, or that does not with the overrides.
     pub fn find(
         obj: &[PathBuf],
-        bounds: &Bounds,
+        scene: &Scene,
         overrides: &CameraOverrides,
         files: &dyn Files,
     ) -> Result<CameraChoice, SceneError> {
@@ -28,7 +28,7 @@ impl Camera {
         if let Some((name, text)) = first(obj, "ecs", files)? {
             return embree::parse(&text, &name, overrides);
         }
-        fit::fit(bounds, overrides)
+        fit::fit(scene, overrides)
     }
 
     /// The camera of [`Scene::embedded`](crate::scene::Scene::embedded), 128 x 128 pixels.

@@ -35,6 +35,33 @@ fn ke_makes_a_light() {
     assert!(!decide("Kd 1\nKe 0 0 0").0.emits());
 }
 
+/// Is said of a lamp what it does not do: reflect without `Kd`, and mirror?
+#[test]
+fn lamps_are_told_what_they_do_not_do() {
+    assert_eq!(decide("Ke 1").1, ["m.mtl:1: material \"m\" emits and has no Kd: it reflects nothing"]);
+    let (_, said) = decide("Kd .5\nKs .5\nKe 1\nillum 2");
+    assert_eq!(said, ["m.mtl:1: material \"m\" emits: what it mirrors by Ks is left out"]);
+    assert!(decide("Kd .5\nKs .5\nKe 1\nillum 1").1.is_empty());
+}
+
+/// Is said what looks like glass that an exporter flattened, and of nothing else?
+#[test]
+fn flattened_glass_is_said() {
+    // assimp-utils 5.2.5; bpy 5.0.1 with transmission, as a mirror.
+    for (text, sign) in [
+        ("Kd 0 0 0\nKs 1 1 1\nTf .9 .9 .9\nNi 1.5\nillum 1", "Ni 1.5 and Tf below 1 like glass, but is diffuse"),
+        ("Kd .8\nKs 1\nTf .5\nNi 1.5\nillum 3", "Tf below 1 like glass, but is mirror"),
+        ("Kd 0 0 0\nKs 0\nNi 1.5\nillum 2", "Ni 1.5 and a black Kd like glass"),
+    ] {
+        let (_, said) = decide(text);
+        assert!(said.iter().any(|said| said.contains(sign)), "{text}: {said:?}");
+    }
+    for paint in ["Kd .8\nNi 1.45\nillum 2", "Kd 0\nNi 1\nillum 2", "Kd .1\nNi 1.5\nTf 1 1 1\nillum 4"] {
+        assert!(decide(paint).1.is_empty(), "{paint}");
+    }
+    assert!(decide("Kd 0\nKs .9\nNi 1.5\nillum 5").1.is_empty(), "chrome");
+}
+
 /// Is glass what refracts *and* is see-through, and nothing less?
 #[test]
 fn glass_needs_an_index_and_transparency() {

@@ -1,6 +1,6 @@
 //! Are vertices, normals and faces read as exporters write them?
 
-use super::support::{SQUARE, error, load};
+use super::support::{SQUARE, error, load, strict_error};
 use crate::scene::{Dropped, Scene};
 use glam::Vec3;
 
@@ -22,7 +22,6 @@ fn bad_indices_name_their_line() {
         ("f -5 1 2", "vertex -5 does not exist"),
         ("f -9223372036854775808 1 2", "vertex -9223372036854775808 does not exist"),
         ("f 9223372036854775808 1 2", "index \"9223372036854775808\" is not a whole number"),
-        ("f 1//1 2//1 3//1", "normal 1 does not exist; 0 are defined"),
         ("f 1 2 x", "\"x\" is not an index"),
         ("f 1/1/1/1 2 3", "more than three indices"),
         ("f 1.0 2 3", "index \"1.0\" is not a whole number"),
@@ -31,6 +30,17 @@ fn bad_indices_name_their_line() {
         let said = error(format!("{SQUARE}{face}\n"));
         assert!(said.starts_with("t.obj:5: f: ") && said.contains(what) && !said.contains('\n'), "{face}: {said}");
     }
+}
+
+/// Is a face shaded flat whose normal is not there, unless the reading is strict?
+#[test]
+fn normals_that_are_not_there() {
+    let obj = format!("{SQUARE}f 1//9 2//9 3//9\nf 1//-1 3//1 4//1\n");
+    let scene = load(&obj).unwrap();
+    assert_eq!((scene.triangle_count(), scene.corner_normals(0)), (2, None));
+    let said = "t.obj:5: f: normal 9 does not exist; 0 are defined above this line, counted from 1";
+    assert_eq!(scene.warnings[0], format!("{said}: its face is shaded flat (and 5 more like this)"));
+    assert_eq!(strict_error(&obj), said);
 }
 
 /// Are vertices that are no places refused with file and line?
@@ -42,7 +52,6 @@ fn senseless_vertices_name_their_line() {
         ("v 1e39 0 0", "infinite in single precision"),
         ("v 1e19 0 0", "farther than 1e18"),
         ("v 1 2", "v with 2 numbers"),
-        ("v 1 2 3 0", "farther than 1e18"),
         ("v 1 2 3 4 5", "v with 5 numbers"),
         ("v 1 two 3", "\"two\" is not a number"),
         ("vn 1 2", "vn with 2 numbers"),
@@ -53,12 +62,13 @@ fn senseless_vertices_name_their_line() {
     }
 }
 
-/// Are weights divided out, and colours of vertices left out, also where only some have them?
+/// Are weights and colours of vertices left out, also where only some have them?
 #[test]
 fn vertex_weights_and_colours() {
-    let scene = load("v 0 0 0 2\nv 2 0 0 2\nv 0 1 0 .1 .2 .3\nf 1 2 3\n").unwrap();
+    let scene = load("v 0 0 0 2\nv 1 0 0 2\nv 0 1 0 .1 .2 .3\nf 1 2 3\nv 1 2 3 0\n").unwrap();
     assert_eq!(scene.triangle(0), [Vec3::ZERO, Vec3::X, Vec3::Y]);
-    assert_eq!(scene.warnings[0], "t.obj:3: colours of vertices are ignored");
+    assert!(scene.warnings[0].starts_with("t.obj:1: v has a fourth number, which is left out"), "{:?}", scene.warnings);
+    assert_eq!(scene.warnings[1], "t.obj:3: colours of vertices are ignored");
 }
 
 fn area(scene: &Scene) -> f64 {

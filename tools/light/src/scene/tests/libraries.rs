@@ -1,6 +1,6 @@
 //! Are material libraries found and read as exporters write them?
 
-use super::support::{LAMP, SQUARE, error, load, load_files};
+use super::support::{LAMP, SQUARE, load, load_files, strict_error};
 use crate::scene::{LoadOptions, Scene};
 
 /// Does a byte-order mark before `mtllib` lose the materials?
@@ -25,11 +25,12 @@ fn library_lists_and_names_with_spaces() {
     .unwrap());
     red(load_files(&[("t.obj", obj("a b.mtl").as_bytes()), ("a b.mtl", &both)], &options).unwrap());
     red(load_files(&[("d/t.obj", obj("lib\\a.mtl").as_bytes()), ("d/lib/a.mtl", &both)], &options).unwrap());
-    let missing = load_files(&[("t.obj", obj("a.mtl b.mtl").as_bytes()), ("a.mtl", &both)], &options).unwrap_err();
-    assert!(
-        missing.to_string().starts_with("t.obj:1: material library \"b.mtl\": no such file; put it beside"),
-        "{missing}"
-    );
+    let one = [("t.obj", &obj("a.mtl b.mtl").into_bytes()[..]), ("a.mtl", &both)];
+    let said = "t.obj:1: material library \"b.mtl\": no such file; put it beside the OBJ or correct the mtllib line";
+    let scene = load_files(&one, &options).unwrap();
+    assert_eq!(scene.warnings, [format!("{said}: its materials are grey 0.5")]);
+    red(scene);
+    assert_eq!(load_files(&one, &LoadOptions { strict: true, ..options }).unwrap_err().to_string(), said);
 }
 
 /// Does a `usemtl` above its `mtllib`, or split by a tab, find its material?
@@ -40,10 +41,45 @@ fn library_after_use_and_tabs() {
     assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
 }
 
-/// Is a missing library an error, and an unknown material grey with a warning?
+/// Are names found that have blanks, quotes, or the path of another machine, and those that are not there named?
+#[test]
+fn names_as_exporters_write_them() {
+    let with = |statement: &str, there: &[&str]| {
+        let obj = format!("{statement}\n{SQUARE}usemtl lamp\nf 1 2 3 4\n");
+        let mut files = vec![("d/t.obj", obj.as_bytes())];
+        files.extend(there.iter().map(|name| (*name, LAMP.as_bytes())));
+        load_files(&files, &LoadOptions { allow_dark: true, ..Default::default() }).unwrap()
+    };
+    let lit = |statement: &str, there: &[&str]| {
+        let scene = with(statement, there);
+        assert!(scene.material_of(0).emits(), "{statement}: {:?}", scene.warnings);
+        // The lamp has no Kd, which is said of it.
+        scene.warnings.into_iter().filter(|said| !said.contains("no Kd")).collect::<Vec<_>>()
+    };
+    let none: [&str; 0] = [];
+    assert_eq!(lit("mtllib my room.mtl", &["d/my room.mtl"]), none);
+    assert_eq!(lit("mtllib \"my room.mtl\"", &["d/my room.mtl"]), none);
+    assert_eq!(lit("mtllib your room.mtl my room.mtl", &["d/my room.mtl", "d/your room.mtl"]).len(), 2); // defined twice
+    assert_eq!(lit("mtllib \"x.mtl\" \"my room.mtl\" # both", &["d/my room.mtl"]).len(), 1);
+    assert_eq!(lit("mtllib m.mtl # the room", &["d/m.mtl"]), none);
+    for foreign in ["C:\\models\\x.mtl", "/home/x/x.mtl", "./a/x.mtl"] {
+        let said = lit(&format!("mtllib {foreign}"), &["d/x.mtl"]);
+        assert!(said.len() == 1 && said[0].ends_with("d/x.mtl is taken for it"), "{said:?}");
+    }
+    let said = lit("mtllib a.mtl b.mtl c.mtl", &["d/c.mtl"]);
+    assert!(said.len() == 2 && said[0].contains("\"a.mtl\"") && said[1].contains("\"b.mtl\""), "{said:?}");
+    let said = with("mtllib no such room.mtl", &[]).warnings;
+    assert!(said[0].contains("\"no such room.mtl\": no such file") && said.len() == 3, "{said:?}");
+    let said = with("mtllib", &[]).warnings;
+    assert!(said[0].starts_with("d/t.obj:1: mtllib without a name"), "{said:?}");
+}
+
+/// Is a missing library named, an error to a strict reading, and an unknown material grey with a warning?
 #[test]
 fn missing_library_and_unknown_material() {
-    let missing = error(format!("# x\nmtllib gone.mtl\n{SQUARE}f 1 2 3\n"));
+    let gone = format!("# x\nmtllib gone.mtl\n{SQUARE}f 1 2 3\n");
+    assert!(load(&gone).unwrap().warnings[0].starts_with("t.obj:2: material library \"gone.mtl\": no such file"));
+    let missing = strict_error(gone);
     assert_eq!(
         missing,
         "t.obj:2: material library \"gone.mtl\": no such file; put it beside the OBJ or correct the mtllib line"

@@ -31,7 +31,7 @@ pub(super) fn error(obj: impl AsRef<[u8]>) -> String {
 pub(super) fn shipped(name: &str) -> (Scene, Camera) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
     let scene = Scene::load(std::slice::from_ref(&path), &LoadOptions::default(), &FileSystem).unwrap();
-    let camera = Camera::find(&[path], &scene.bounds, &CameraOverrides::default(), &FileSystem).unwrap();
+    let camera = Camera::find(&[path], &scene, &CameraOverrides::default(), &FileSystem).unwrap();
     assert!(!camera.fitted && camera.warnings.is_empty());
     (scene, camera.camera)
 }
@@ -50,4 +50,10 @@ pub(super) fn edges(scene: &Scene, of: impl Fn(&Material) -> bool) -> HashMap<[[
 
 pub(super) fn is_closed(edges: &HashMap<[[u32; 3]; 2], usize>) -> bool {
     edges.iter().all(|(&[a, b], &count)| count == 1 && edges.get(&[b, a]) == Some(&1))
+}
+
+/// What a strict reading says.
+pub(super) fn strict_error(obj: impl AsRef<[u8]>) -> String {
+    let options = LoadOptions { allow_dark: true, strict: true, ..Default::default() };
+    load_files(&[("t.obj", obj.as_ref()), ("m.mtl", LAMP.as_bytes())], &options).unwrap_err().to_string()
 }

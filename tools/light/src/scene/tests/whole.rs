@@ -19,6 +19,32 @@ fn hopeless_scenes_say_why() {
     assert_eq!(dark.to_string(), "t.obj: nothing emits light; give a material `Ke`, or add a light by --quad-light");
 }
 
+/// Are files of other kinds named, and is what to do about them said?
+#[test]
+fn files_of_other_kinds_are_named() {
+    let said = |name: &str, bytes: &[u8]| load_files(&[(name, bytes)], &LoadOptions::default()).unwrap_err().to_string();
+    let what = "which is not read; convert it to OBJ (and check Ke: converters lose the strength of lamps)";
+    assert_eq!(said("room.glb", b"glTF\x02\0\0\0"), format!("room.glb: glTF, {what}"));
+    assert_eq!(said("room.obj", b"glTF\x02\0\0\0"), format!("room.obj: glTF, {what}"));
+    assert_eq!(said("Room.GLTF", b"{}"), format!("Room.GLTF: glTF, {what}"));
+    assert!(said("r.usdz", b"PK\x03\x04").contains(": USD, "));
+    assert!(said("r.obj", b"#usda 1.0\n").contains(": USD, "));
+    assert!(said("r.blend", b"BLENDER-v405").contains("a Blender file"));
+}
+
+/// Is what was passed over named where nothing emits light?
+#[test]
+fn lamps_that_are_passed_over_are_named() {
+    let obj = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n");
+    let mtl = "newmtl a\nKd 1\nKe 0 0 0\nmap_Ke glow.png\nnewmtl b\nke 5 5 5\n";
+    let dark = load_files(&[("t.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &LoadOptions::default()).unwrap_err();
+    assert_eq!(
+        dark.to_string(),
+        "t.obj: nothing emits light (passed over: `map_Ke` in m.mtl:4; `ke` in m.mtl:6, which is not `Ke`); give a material \
+         `Ke`, or add a light by --quad-light"
+    );
+}
+
 /// Is a lamp without an area no lamp?
 #[test]
 fn lamp_without_area_is_no_light() {

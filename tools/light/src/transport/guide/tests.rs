@@ -47,7 +47,7 @@ fn spot() -> (Scene, Camera) {
         size: Some([24, 20]),
         ..CameraOverrides::default()
     };
-    let camera = Camera::find(&[PathBuf::from("none.obj")], &scene.bounds, &view, &FileSystem).unwrap().camera;
+    let camera = Camera::find(&[PathBuf::from("none.obj")], &scene, &view, &FileSystem).unwrap().camera;
     (scene, camera)
 }
 
@@ -108,7 +108,7 @@ fn light_from_few_directions_comes_with_less_noise_and_no_other_mean() {
 fn without_photons_nothing_changes() {
     let (scene, path) = shipped("cornell-diffuse.obj");
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
-    let camera = Camera::find(&[path], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
+    let camera = Camera::find(&[path], &scene, &overrides, &FileSystem).unwrap().camera;
     let options = GatherOptions { gathers: 4, method: Method::FinalGather, ..OPTIONS };
     let queries = |guide: Option<&[Photon]>| {
         let rays = GatherRays::new(&scene, camera, options);

@@ -43,7 +43,7 @@ fn a_pixel_that_is_remembered_is_seen_as_at_first() {
     // The box with a mirror and a glass sphere, in passes that come to each pixel again, and from the second one on.
     let (scene, path) = shipped("cornell.obj");
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
-    let camera = Camera::find(&[path], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
+    let camera = Camera::find(&[path], &scene, &overrides, &FileSystem).unwrap().camera;
     let rays = GatherRays::new(&scene, camera, GatherOptions { gathers: 4, ..OPTIONS }).with_bins(4);
     let passes = Pass::every_ray(&[VisiblePoints::Direct, VisiblePoints::BehindSpecular], 4);
     for first in [0, 1] {

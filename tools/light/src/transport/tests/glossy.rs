@@ -37,7 +37,7 @@ fn gather_rays_of_glossy_points_carry_the_albedo() {
         size: Some([24, 20]),
         ..CameraOverrides::default()
     };
-    let camera = Camera::find(&[PathBuf::from("none.obj")], &scene.bounds, &view, &FileSystem).unwrap().camera;
+    let camera = Camera::find(&[PathBuf::from("none.obj")], &scene, &view, &FileSystem).unwrap().camera;
     for spread in [Spread::Cosine, Spread::Uniform] {
         let options = GatherOptions { gathers: 100, spread, ..OPTIONS };
         let found = total(&rays_with(&scene, camera, options).0) / (24.0 * 20.0);

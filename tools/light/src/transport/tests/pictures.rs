@@ -13,7 +13,7 @@ pub(in crate::transport) fn rays(
     strata: Strata,
 ) -> (Vec<pm_formats::Query>, Vec<Vec3>, Camera) {
     let overrides = CameraOverrides { size: Some([24, 20]), ..CameraOverrides::default() };
-    let camera = Camera::find(&[path.to_owned()], &scene.bounds, &overrides, &FileSystem).unwrap().camera;
+    let camera = Camera::find(&[path.to_owned()], scene, &overrides, &FileSystem).unwrap().camera;
     rays_with(scene, camera, GatherOptions { gathers, strata, ..OPTIONS })
 }
 

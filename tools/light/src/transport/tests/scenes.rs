@@ -43,5 +43,5 @@ pub(in crate::transport) fn cuboid(first_vertex: usize, min: f32, max: f32, mate
 pub(in crate::transport) fn camera(path: &Path) -> Camera {
     let (scene, overrides) = (Scene::load(&[path.to_owned()], &LoadOptions::default(), &FileSystem).unwrap(), [24, 20]);
     let overrides = CameraOverrides { size: Some(overrides), ..CameraOverrides::default() };
-    Camera::find(&[path.to_owned()], &scene.bounds, &overrides, &FileSystem).unwrap().camera
+    Camera::find(&[path.to_owned()], &scene, &overrides, &FileSystem).unwrap().camera
 }
