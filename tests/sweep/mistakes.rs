@@ -29,7 +29,10 @@ const MISTAKES: &[(&str, &str)] = &[
     ("k,gather\n1,-k {k}\n1,-k {k} --reread\n", "my.csv:3: the point 1 stands twice in the table (line 2)"),
     ("start\nauto auto\n", "my.csv:2: the point auto stands twice"),
     ("strata,touch\nraster,once\n\nraster,once twice\n", "my.csv:4: the point raster.once stands twice"),
-    ("order,queries\nhilbert scanline,| pm-reorder hilbert\n", "my.csv:2: the points hilbert and scanline run the same"),
+    (
+        "order,queries\nhilbert scanline,| pm-reorder hilbert\n",
+        "my.csv:2: the points hilbert and scanline run the same",
+    ),
     // What make or a shell would misread.
     ("order,photons\ntiled,-n 500 # few\n", "my.csv:2: a remark is a line of its own"),
     ("order,command\ntiled,echo 'x' {order}\n", "my.csv:2: no ' may stand in what runs"),

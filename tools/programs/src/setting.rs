@@ -76,7 +76,8 @@ impl SceneArgs {
             Scene::embedded()
         } else {
             let allow_dark = !self.quad_light.is_empty();
-            let options = LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark, strict: self.strict };
+            let options =
+                LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark, strict: self.strict };
             Scene::load(&self.scene, &options, &FileSystem)?
         };
         for light in &self.quad_light {

@@ -32,7 +32,7 @@ pub(super) fn named(
         warnings.tolerate("mtllib", at_line.error("mtllib without a name; give the MTL file's"), "it is left out")?;
         return Ok(vec![]);
     }
-    let mut missing = |name: &str, source: io::Error, warnings: &mut Warnings| {
+    let missing = |name: &str, source: io::Error, warnings: &mut Warnings| {
         let wrong = SceneError::MissingMtl { place: at_line.clone(), name: name.to_owned(), source };
         warnings.tolerate(&format!("mtllib {name}"), wrong, "its materials are grey 0.5")
     };
@@ -71,13 +71,7 @@ pub(super) fn named(
 }
 
 /// A library of this name beside the OBJ, or of its bare name if it is the path of another machine.
-fn look(
-    obj: &Path,
-    name: &str,
-    at_line: &FileLine,
-    files: &dyn Files,
-    warnings: &mut Warnings,
-) -> io::Result<Library> {
+fn look(obj: &Path, name: &str, at_line: &FileLine, files: &dyn Files, warnings: &mut Warnings) -> io::Result<Library> {
     let beside = |name: &str| obj.with_file_name("").join(name);
     let name = name.replace('\\', "/");
     let path = beside(&name);

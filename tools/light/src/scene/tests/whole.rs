@@ -22,7 +22,8 @@ fn hopeless_scenes_say_why() {
 /// Are files of other kinds named, and is what to do about them said?
 #[test]
 fn files_of_other_kinds_are_named() {
-    let said = |name: &str, bytes: &[u8]| load_files(&[(name, bytes)], &LoadOptions::default()).unwrap_err().to_string();
+    let said =
+        |name: &str, bytes: &[u8]| load_files(&[(name, bytes)], &LoadOptions::default()).unwrap_err().to_string();
     let what = "which is not read; convert it to OBJ (and check Ke: converters lose the strength of lamps)";
     assert_eq!(said("room.glb", b"glTF\x02\0\0\0"), format!("room.glb: glTF, {what}"));
     assert_eq!(said("room.obj", b"glTF\x02\0\0\0"), format!("room.obj: glTF, {what}"));
@@ -37,7 +38,8 @@ fn files_of_other_kinds_are_named() {
 fn lamps_that_are_passed_over_are_named() {
     let obj = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n");
     let mtl = "newmtl a\nKd 1\nKe 0 0 0\nmap_Ke glow.png\nnewmtl b\nke 5 5 5\n";
-    let dark = load_files(&[("t.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &LoadOptions::default()).unwrap_err();
+    let dark =
+        load_files(&[("t.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())], &LoadOptions::default()).unwrap_err();
     assert_eq!(
         dark.to_string(),
         "t.obj: nothing emits light (passed over: `map_Ke` in m.mtl:4; `ke` in m.mtl:6, which is not `Ke`); give a material \

@@ -87,19 +87,17 @@ fn absurd_sizes_are_refused_before_they_are_allocated() {
     let encoder = image::codecs::png::PngEncoder::new(&mut png);
     image::ImageEncoder::write_image(encoder, &[0; 3], 1, 1, ExtendedColorType::Rgb8).unwrap();
     png[16..24].fill(0x7f);
-    for (name, bytes) in [
-        ("x.bmp", bmp(60_000)),
-        ("x.tga", tga),
-        ("x.ppm", b"P6\n99999999 99999999\n255\n".to_vec()),
-        ("x.png", png),
-    ] {
+    for (name, bytes) in
+        [("x.bmp", bmp(60_000)), ("x.tga", tga), ("x.ppm", b"P6\n99999999 99999999\n255\n".to_vec()), ("x.png", png)]
+    {
         assert!(of(name, &bytes).is_err_and(|why| !why.contains('\n')), "{name}");
     }
 }
 
 #[test]
 fn damaged_images_are_refused() {
-    for bytes in [&b""[..], b"BM", b"\x89PNG\r\n\x1a\n", b"\x89PNG", &[0xff, 0xd8], &[0xff, 0xd8, 0xff, 0xc0, 0, 9, 9]] {
+    for bytes in [&b""[..], b"BM", b"\x89PNG\r\n\x1a\n", b"\x89PNG", &[0xff, 0xd8], &[0xff, 0xd8, 0xff, 0xc0, 0, 9, 9]]
+    {
         assert!(of("x", bytes).is_err_and(|why| !why.contains('\n')), "{bytes:?}");
         assert!(of("x.tga", bytes).is_err_and(|why| !why.contains('\n')), "{bytes:?}");
     }
