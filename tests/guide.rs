@@ -91,7 +91,7 @@ fn what_cannot_guide_is_told() {
     assert!(records::<Query>(&outcome.stdout) == records::<Query>(&plain));
 
     // Photons of a scene three times as large.
-    folder.write("far.mtl", "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl lamp\nKe 9 9 9\n");
+    folder.write("far.mtl", "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n");
     folder.write(
         "far.obj",
         "mtllib far.mtl\nv -3 0 -3\nv -3 0 3\nv 3 0 3\nv 3 0 -3\nv -1 3 -1\nv 1 3 -1\nv 1 3 1\nv -1 3 1\n\
