@@ -110,6 +110,49 @@ fn two_pictures_are_compared() {
     let _ = folder.run("pm-view --check a.exr").fails(2);
 }
 
+/// Moves the data window of an EXR file to the right.
+fn shifted(mut bytes: Vec<u8>, by: i32) -> Vec<u8> {
+    let name = b"dataWindow\0box2i\0\x10\0\0\0";
+    let at = bytes.windows(name.len()).position(|window| window == name).expect("a data window") + name.len();
+    for corner in [at, at + 8] {
+        let x = i32::from_le_bytes(bytes[corner..corner + 4].try_into().unwrap()) + by;
+        bytes[corner..corner + 4].copy_from_slice(&x.to_le_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn a_picture_shifted_in_its_window_is_not_the_same() {
+    let folder = Folder::with_streams();
+    exr(&folder, "a.exr", [16, 12], 1.0);
+    folder.write("b.exr", shifted(folder.read("a.exr"), 2));
+    let compared = folder.run("pm-view a.exr b.exr");
+    let said = "pm-view: data windows differ: 0,0,16,12 and 2,0,18,12; pixels are compared by their order in the files";
+    assert_eq!((compared.code, compared.stderr.trim()), (0, said));
+    let base = folder.run("pm-gather map.pmp q.pmq --base b.exr --no-trace --image x.exr");
+    let said =
+        "b.exr: cannot be added to the picture: data windows differ: 2,0,18,12 and 0,0,16,12; write it again in those";
+    assert!(base.fails(1).contains(said), "{}", base.stderr);
+    assert!(!folder.path("x.exr").exists());
+    // A mean counts from the display window, in which the first two columns are not there.
+    let mean = folder.run("pm-view b.exr --mean 2,0,4,1 --format csv").ok();
+    assert!(mean.text().contains("b.exr,2,0,4,1,2,0,1.0,2.0,4.0"), "{}", mean.text());
+    assert!(folder.run("pm-view b.exr --mean 0,0,4,1").fails(1).contains("2,0,18,12 of the display window"));
+}
+
+#[test]
+fn pictures_without_a_finite_pixel_are_said_to_be_so() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [3, 2], 1.0);
+    exr(&folder, "i.exr", [3, 2], f32::INFINITY);
+    let compared = folder.run("pm-view a.exr i.exr");
+    assert!(compared.fails(1).ends_with("in none of the 6 pixels are both finite; there is nothing to compare"));
+    let mean = folder.run("pm-view i.exr --mean all");
+    assert!(mean.stderr.contains("i.exr: region all has no mean: none of its 6 pixels is finite"), "{}", mean.stderr);
+    let text = folder.run("pm-view i.exr").ok().text().to_owned();
+    assert!(text.contains("channel      R: none of its 6 values is finite\n"), "{text}");
+}
+
 #[test]
 fn a_picture_is_described() {
     let folder = Folder::new();

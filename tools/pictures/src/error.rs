@@ -3,9 +3,12 @@
 /// Why a picture could not be read, written or used.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The bytes are no EXR image, or one without channels R, G and B.
+    /// The bytes are no EXR image.
     #[error("this is no readable EXR image")]
     NotExr(#[source] exr::error::Error),
+    /// The EXR image has other channels, which are named.
+    #[error("this EXR image has no channels R, G and B; it has {0}")]
+    ChannelsMissing(String),
     /// The bytes are no PNG image.
     #[error("this is no readable PNG image")]
     NotPng(#[source] png::DecodingError),
@@ -28,6 +31,14 @@ pub enum PictureError {
         region: crate::Region,
         /// Width and height of the picture.
         size: [u32; 2],
+    },
+    /// A region is not inside what there is of a picture.
+    #[error("region {region} reaches beyond the pixels that are there, {} of the display window", .there.map(|x| x.to_string()).join(","))]
+    BeyondData {
+        /// The region.
+        region: crate::Region,
+        /// x0, y0, x1, y1 of the pixels that are there, counted from the display window.
+        there: [i64; 4],
     },
     /// A sheet without pictures.
     #[error("a contact sheet needs pictures")]

@@ -1,6 +1,6 @@
 //! Pictures as OpenEXR files.
 
-use crate::{Picture, PictureError, Result};
+use crate::{Picture, PictureError, Result, frame};
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
     ReadChannels as _, ReadLayers as _, Text, WritableImage as _, read,
@@ -39,5 +39,5 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture> {
     };
     let reader = read().no_deep_data().largest_resolution_level().rgba_channels(black, set);
     let image = reader.first_valid_layer().all_attributes().from_buffered(Cursor::new(bytes));
-    Ok(image.map_err(PictureError::NotExr)?.layer_data.channel_data.pixels)
+    Ok(image.map_err(|error| frame::why_not(bytes, error))?.layer_data.channel_data.pixels)
 }

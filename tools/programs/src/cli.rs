@@ -19,7 +19,7 @@ pub use entry::{EntryParser, entry};
 pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use outcome::Outcome;
 pub use output::{Output, OutputArgs, create_output};
-pub use picture::{describe_picture, picture_format, read_picture, read_preview, write_picture};
+pub use picture::{describe_picture, picture_format, read_framed, read_preview, write_picture};
 pub use program::Program;
 pub use progress::Progress;
 pub use usage::{UsageError, usage};

@@ -3,7 +3,7 @@
 use super::usage::usage;
 use super::{named, software};
 use anyhow::Context as _;
-use pm_pictures::{Description, Picture, PictureFormat, Preview};
+use pm_pictures::{Description, Frame, Picture, PictureError, PictureFormat, Preview};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -32,12 +32,14 @@ pub fn write_picture(
     Ok(output.write_all(&bytes)?)
 }
 
-/// Reads a picture in EXR.
+/// Reads a picture in EXR, and where its pixels lie.
 ///
 /// # Errors
 /// If there is none.
-pub fn read_picture(path: &Path) -> anyhow::Result<Picture> {
-    Picture::decode_exr(&bytes(path)?).with_context(|| named(path))
+pub fn read_framed(path: &Path) -> anyhow::Result<(Picture, Frame)> {
+    let bytes = bytes(path)?;
+    let read = || Ok::<_, PictureError>((Picture::decode_exr(&bytes)?, Frame::of_exr(&bytes)?));
+    read().with_context(|| named(path))
 }
 
 /// Reads what an EXR file says of itself.

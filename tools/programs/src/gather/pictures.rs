@@ -2,14 +2,14 @@
 
 use super::args::Args;
 use super::photons::Photons;
-use crate::cli::{Output, picture_format, read_picture, write_picture};
-use anyhow::{Context as _, ensure};
+use crate::cli::{Output, picture_format, read_framed, write_picture};
+use anyhow::{Context as _, bail, ensure};
 use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Tally};
 use pm_gathering::Answered;
-use pm_pictures::{Picture, PictureFormat};
+use pm_pictures::{Frame, Picture, PictureFormat};
 use std::path::PathBuf;
 
 /// What pixels, and sums of the cached irradiance, add up to; nothing if no picture is wanted.
@@ -88,7 +88,12 @@ pub(super) fn write(
         return Ok(());
     }
     if let Some(base) = &args.rest.base {
-        picture.add(&read_picture(base)?).with_context(|| base.display().to_string())?;
+        let (added, frame) = read_framed(base)?;
+        let own = Frame::plain(picture.size);
+        picture.add(&added).with_context(|| base.display().to_string())?;
+        if let Some(difference) = frame.difference(&own) {
+            bail!("{}: cannot be added to the picture: {difference}; write it again in those", base.display());
+        }
     }
     let finite = |pixel: &[f32; 3]| pixel.iter().all(|x| x.is_finite());
     let odd = picture.pixels.iter().filter(|pixel| !finite(pixel)).count();

@@ -55,7 +55,8 @@ pub struct Args {
     /// Queries: size of the picture
     #[arg(long, value_name = "WxH", requires = "import", value_parser = size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Print the mean radiance of a rectangle of pixels, the last column and row not included; may be repeated
+    /// Print the mean radiance of a rectangle of pixels of the display window, the last column and row not included; may be
+    /// repeated
     #[arg(long, value_name = "X0,Y0,X1,Y1|all", group = "what")]
     pub(super) mean: Vec<Region>,
     /// Put .exr or .png pictures on a contact sheet with their names

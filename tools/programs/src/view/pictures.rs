@@ -1,9 +1,9 @@
 //! Pictures: one described, two compared, rectangles of any measured, many on a sheet.
 
 use super::{Args, tables};
-use crate::cli::{create_output, describe_picture, named, picture_format, read_picture, read_preview, usage};
-use anyhow::Context as _;
-use pm_pictures::{Comparison, PictureFormat, RegionMean, contact_sheet, hdr_flip, ldr_flip};
+use crate::cli::{create_output, describe_picture, named, picture_format, read_framed, read_preview, usage};
+use anyhow::{Context as _, bail};
+use pm_pictures::{Comparison, PictureFormat, contact_sheet, hdr_flip, ldr_flip};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -19,9 +19,19 @@ pub(super) fn describe(picture: &Path, output: &mut impl Write) -> anyhow::Resul
 
 /// Writes how far `b` is from `a`.
 pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) -> anyhow::Result<()> {
-    let [x, y] = [read_picture(a)?, read_picture(b)?];
+    let [(x, frame), (y, its)] = [read_framed(a)?, read_framed(b)?];
     let comparison = Comparison::new(&x, &y)?;
-    if comparison.differing == 0 {
+    if comparison.not_finite == comparison.pixels {
+        bail!(
+            "{} and {}: in none of the {} pixels are both finite; there is nothing to compare",
+            named(a),
+            named(b),
+            comparison.pixels
+        );
+    }
+    if let Some(difference) = frame.difference(&its) {
+        args.voice.remark(format!("{difference}; pixels are compared by their order in the files"));
+    } else if comparison.differing == 0 {
         args.voice.remark("the pictures are the same to the last bit");
     }
     let flips = tables::Flips {
@@ -37,9 +47,17 @@ pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) 
 pub(super) fn measure(args: &Args, output: &mut impl Write) -> anyhow::Result<()> {
     let mut found = vec![];
     for path in &args.streams {
-        let picture = read_picture(path)?;
+        let (picture, frame) = read_framed(path)?;
         for &region in &args.mean {
-            found.push((named(path), RegionMean::new(&picture, region).with_context(|| named(path))?));
+            let mean = frame.mean(&picture, region).with_context(|| named(path))?;
+            if mean.not_finite == mean.pixels {
+                args.voice.remark(format!(
+                    "{}: region {region} has no mean: none of its {} pixels is finite",
+                    named(path),
+                    mean.pixels
+                ));
+            }
+            found.push((named(path), mean));
         }
     }
     Ok(tables::regions(&found).write(args.format, output)?)

@@ -9,6 +9,11 @@ pub(super) fn picture(description: &Description, output: &mut impl Write) -> io:
     let Description { size: [width, height], channels, attributes } = description;
     writeln!(output, "{:<12} {width} x {height} pixels", "picture")?;
     for channel in channels {
+        if channel.mean.is_nan() {
+            let n = channel.not_finite;
+            writeln!(output, "{:<12} {}: none of its {n} values is finite", "channel", channel.name)?;
+            continue;
+        }
         let odd = match channel.not_finite {
             0 => String::new(),
             n => format!(", {n} values not finite"),
