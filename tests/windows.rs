@@ -312,7 +312,7 @@ fn windows_go_through_the_pipe_one_by_one() {
         folder.run("pm-gather map.pmp reordered.pmq -k 20 -t 2 -o t.pmt").ok();
         let trace = folder.read("t.pmt");
         let mut blocks = BlockReader::new(&trace[..]).unwrap();
-        for name in ["sample", "sample of", "sample windows", "sample share"] {
+        for name in [meaning::SAMPLE, meaning::SAMPLE_OF, meaning::SAMPLE_WINDOWS, meaning::SAMPLE_SHARE] {
             assert_eq!(blocks.header().meaning(name), Some(given.meaning(name)), "{name}");
         }
         let mut metas = vec![];

@@ -1,233 +1,25 @@
 //! The container that all streams share: header, blocks, end block. `README.md` specifies it byte by byte.
 
 mod block;
+mod block_header;
 mod end;
 mod header;
+mod kind;
+mod reader;
+mod section;
+mod spelling;
+mod writer;
 
-pub use block::{Block, BlockMeta, MAX_BLOCK, Section};
+pub use block::Block;
+pub use block_header::MAX_BLOCK;
 pub use end::{End, Number, StageReport};
-pub use header::{Bounds, Header, Material, StreamKind};
-
-use crate::digest::Tally;
-use crate::error::{Error, Result};
-use block::{BlockHeader, HEADER_BYTES};
-use std::io::{ErrorKind, Read, Write};
-use xxhash_rust::xxh3::xxh3_64;
+pub use header::{Bounds, Header, Material};
+pub use kind::StreamKind;
+pub use reader::BlockReader;
+pub use section::{BlockMeta, Section};
+pub use writer::BlockWriter;
 
 /// First bytes of every stream. Like PNG's signature it shows text-mode damage: a high byte, CR LF, and a lone LF.
 pub const MAGIC: [u8; 8] = *b"\x89PMS\r\n\x1a\n";
 /// Version of the format that this library reads and writes.
 pub const FORMAT_VERSION: u16 = 1;
-/// Bytes before the header record: magic, version, kind, length, checksum.
-const PRELUDE_BYTES: usize = 24;
-
-/// Reads a stream block by block, whatever its records are.
-pub struct BlockReader<R> {
-    input: R,
-    kind: StreamKind,
-    header: Header,
-    blocks: u64,
-    records: u64,
-    end: Option<End>,
-}
-
-impl<R: Read> BlockReader<R> {
-    /// Reads the header.
-    ///
-    /// # Errors
-    /// [`Error::NotAStream`], [`Error::Version`], [`Error::Incomplete`], [`Error::Damaged`] or [`Error::Io`].
-    pub fn new(mut input: R) -> Result<Self> {
-        let damaged = |what| Error::Damaged { block: 0, what };
-        let incomplete = Error::Incomplete { blocks: 0, records: 0 };
-        let mut prelude = [0; PRELUDE_BYTES];
-        let got = read_up_to(&mut input, &mut prelude)?;
-        if prelude[..got.min(8)] != MAGIC[..got.min(8)] {
-            return Err(Error::NotAStream);
-        }
-        if got < PRELUDE_BYTES {
-            return Err(incomplete);
-        }
-        let half = |at: usize| u16::from_le_bytes([prelude[at], prelude[at + 1]]);
-        let version = half(8);
-        if version != FORMAT_VERSION {
-            return Err(Error::Version { found: version, known: FORMAT_VERSION });
-        }
-        let len = u32::from_le_bytes(prelude[12..16].try_into().expect("four bytes")) as usize;
-        if len > header::MAX_RECORD {
-            return Err(damaged("the header makes no sense"));
-        }
-        let mut bytes = prelude[..16].to_vec();
-        // `take` and not a buffer of `len` bytes: memory grows with what is there, not with what is claimed.
-        (&mut input).take(len as u64).read_to_end(&mut bytes)?;
-        if bytes.len() < 16 + len {
-            return Err(incomplete);
-        }
-        if prelude[16..24] != xxh3_64(&bytes).to_le_bytes() {
-            return Err(damaged("the header does not fit its checksum"));
-        }
-        let kind = StreamKind::from_number(half(10))
-            .ok_or(damaged("it holds records of a sort this program does not know"))?;
-        let header = header::decode(&bytes[16..]).ok_or(damaged("the header cannot be decoded"))?;
-        Ok(Self { input, kind, header, blocks: 0, records: 0, end: None })
-    }
-
-    /// What the stream is about.
-    #[must_use]
-    pub const fn header(&self) -> &Header {
-        &self.header
-    }
-
-    /// What its records are.
-    #[must_use]
-    pub const fn kind(&self) -> StreamKind {
-        self.kind
-    }
-
-    /// The stream must hold records of this kind.
-    ///
-    /// # Errors
-    /// [`Error::WrongKind`] if it holds others.
-    pub fn expect_kind(self, kind: StreamKind) -> Result<Self> {
-        if self.kind == kind {
-            Ok(self)
-        } else {
-            Err(Error::WrongKind { found: self.kind.plural(), wanted: kind.plural() })
-        }
-    }
-
-    /// Number of whole blocks read so far.
-    #[must_use]
-    pub const fn blocks(&self) -> u64 {
-        self.blocks
-    }
-
-    /// The next block, of records or of what stands beside them, or `None` at the end block.
-    ///
-    /// # Errors
-    /// [`Error::Incomplete`] if the stream stops, [`Error::Damaged`] if it contradicts itself, [`Error::Io`].
-    pub fn next_block(&mut self) -> Result<Option<Block>> {
-        if self.end.is_some() {
-            return Ok(None);
-        }
-        let mut bytes = [0; HEADER_BYTES];
-        if read_up_to(&mut self.input, &mut bytes)? < HEADER_BYTES {
-            return Err(self.incomplete());
-        }
-        let header = BlockHeader::parse(&bytes).map_err(|what| self.damaged(what))?;
-        let mut payload = Vec::with_capacity(header.stored_len.min(1 << 20));
-        (&mut self.input).take(header.stored_len as u64).read_to_end(&mut payload)?;
-        if payload.len() < header.stored_len {
-            return Err(self.incomplete());
-        }
-        let block = header.with_bytes(payload).map_err(|what| self.damaged(what))?;
-        match block.section {
-            Section::Records | Section::IrradianceRecords | Section::PixelWeights => {
-                self.blocks += 1;
-                // Only the stream's own records are counted; what stands beside them is in the digest.
-                if block.section == Section::Records {
-                    self.records += u64::from(block.meta.records);
-                }
-                Ok(Some(block))
-            }
-            Section::End => {
-                let end: Option<End> = block.decode().and_then(|bytes| header::decode(&bytes));
-                self.end = Some(end.ok_or_else(|| self.damaged("the end block cannot be decoded"))?);
-                if read_up_to(&mut self.input, &mut [0])? > 0 {
-                    return Err(self.damaged("bytes follow the end block"));
-                }
-                Ok(None)
-            }
-        }
-    }
-
-    /// The end block, after [`next_block`](Self::next_block) has returned `None`, given what was counted on the way.
-    ///
-    /// # Errors
-    /// [`Error::Incomplete`] if it has not been reached, [`Error::Damaged`] if the records read are not those it speaks of.
-    pub fn end(&self, tally: Tally) -> Result<&End> {
-        let end = self.end.as_ref().ok_or_else(|| self.incomplete())?;
-        if end.tally.records != tally.records {
-            Err(self.damaged("the end block speaks of another number of records"))
-        } else if end.tally.digest != tally.digest {
-            Err(self.damaged("the records do not fit the digest in the end block"))
-        } else {
-            Ok(end)
-        }
-    }
-
-    /// The error that the block read last does not hold what it should.
-    #[must_use]
-    pub const fn damaged(&self, what: &'static str) -> Error {
-        Error::Damaged { block: self.blocks, what }
-    }
-
-    const fn incomplete(&self) -> Error {
-        Error::Incomplete { blocks: self.blocks, records: self.records }
-    }
-}
-
-/// Writes a stream block by block, whatever its records are.
-///
-/// Only [`finish`](Self::finish) writes the end block: a writer that is dropped leaves a stream that every reader sees
-/// to be unfinished.
-pub struct BlockWriter<W> {
-    output: W,
-}
-
-impl<W: Write> BlockWriter<W> {
-    /// Writes the header.
-    ///
-    /// # Errors
-    /// [`Error::Io`], or [`Error::Invalid`] for a header beyond the limit.
-    pub fn new(mut output: W, kind: StreamKind, header: &Header) -> Result<Self> {
-        let record = header::encode(header)?;
-        let mut bytes = Vec::with_capacity(16 + record.len());
-        bytes.extend_from_slice(&MAGIC);
-        bytes.extend_from_slice(&FORMAT_VERSION.to_le_bytes());
-        bytes.extend_from_slice(&(kind as u16).to_le_bytes());
-        let len = u32::try_from(record.len()).map_err(|_| Error::Invalid("the header is too large".into()))?;
-        bytes.extend_from_slice(&len.to_le_bytes());
-        bytes.extend_from_slice(&record);
-        output.write_all(&bytes[..16])?;
-        output.write_all(&xxh3_64(&bytes).to_le_bytes())?;
-        output.write_all(&record)?;
-        // Whoever reads the pipe can begin (or complain) at once.
-        output.flush()?;
-        Ok(Self { output })
-    }
-
-    /// Writes a block of records.
-    ///
-    /// # Errors
-    /// [`Error::Io`].
-    pub fn write(&mut self, block: &Block) -> Result<()> {
-        self.output.write_all(&block.header())?;
-        self.output.write_all(block.bytes())?;
-        Ok(())
-    }
-
-    /// Writes the end block: the only way to a whole stream.
-    ///
-    /// # Errors
-    /// [`Error::Io`].
-    pub fn finish(mut self, end: &End) -> Result<W> {
-        let meta = BlockMeta::default();
-        self.write(&Block::encode_section(Section::End, meta, &header::encode(end)?, 0)?)?;
-        self.output.flush()?;
-        Ok(self.output)
-    }
-}
-
-/// Fills `buffer` as far as the input goes; returns the number of bytes read.
-fn read_up_to(input: &mut impl Read, buffer: &mut [u8]) -> Result<usize> {
-    let mut got = 0;
-    while got < buffer.len() {
-        match input.read(&mut buffer[got..]) {
-            Ok(0) => break,
-            Ok(n) => got += n,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Ok(got)
-}

@@ -1,12 +1,14 @@
 //! Records of fixed size, and how a block holds them.
 
-mod pack;
+mod direction;
 mod photon;
 mod query;
+mod rgbe;
 
-pub use pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
+pub use direction::{pack_direction, unpack_direction};
 pub use photon::Photon;
 pub use query::Query;
+pub use rgbe::{pack_rgbe, unpack_rgbe};
 
 use crate::container::{Block, BlockMeta, Header, Section, StreamKind};
 use crate::digest::Tally;

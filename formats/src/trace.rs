@@ -1,16 +1,21 @@
 //! Traces: which memory each search touched, coded by search and not as addresses spelled out.
 
 mod access;
+mod bits;
 mod decode;
 mod encode;
 mod heap_walk;
-mod stream;
+mod reader;
+mod region;
 mod varint;
+mod writer;
 
-pub use access::{Access, AccessKind, Coding, REGION_ALIGNMENT, Region, TraceSink, lay_out};
+pub use access::{Access, AccessKind, TraceSink};
 pub use decode::decode_searches;
 pub use encode::BlockEncoder;
-pub use stream::{TraceReader, TraceWriter};
+pub use reader::TraceReader;
+pub use region::{Coding, REGION_ALIGNMENT, Region, lay_out};
+pub use writer::TraceWriter;
 
 #[cfg(test)]
 mod tests;

@@ -1,48 +1,8 @@
 //! The header: what a stream is about and where it came from.
 
-use crate::error::{Error, Result};
 use crate::history::Step;
 use crate::trace::Region;
-use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
-
-/// Largest header or end block that is read, in bytes; keeps a damaged length from claiming the memory.
-pub(super) const MAX_RECORD: usize = 64 << 20;
-
-/// What the records of a stream are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[repr(u16)]
-pub enum StreamKind {
-    /// Photons, 20 bytes each.
-    Photons = 1,
-    /// Gather queries, 44 bytes each.
-    Queries = 2,
-    /// Searches with the accesses they made.
-    Trace = 3,
-}
-
-impl StreamKind {
-    /// The kind with this number, if there is one.
-    #[must_use]
-    pub const fn from_number(number: u16) -> Option<Self> {
-        match number {
-            1 => Some(Self::Photons),
-            2 => Some(Self::Queries),
-            3 => Some(Self::Trace),
-            _ => None,
-        }
-    }
-
-    /// What the stream holds, in the plural, for people.
-    #[must_use]
-    pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Photons => "photons",
-            Self::Queries => "queries",
-            Self::Trace => "searches (a trace)",
-        }
-    }
-}
+use serde::{Deserialize, Serialize};
 
 /// An axis-aligned box in scene units. An empty box has `min > max`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,22 +76,5 @@ impl Header {
     #[must_use]
     pub fn meaning(&self, name: &str) -> Option<&str> {
         self.meaning.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
-    }
-}
-
-/// bincode with fixed-size little-endian integers and a limit: the one place that knows how headers are spelled.
-const fn configuration() -> Configuration<LittleEndian, Fixint, Limit<MAX_RECORD>> {
-    bincode::config::standard().with_little_endian().with_fixed_int_encoding().with_limit::<MAX_RECORD>()
-}
-
-pub(super) fn encode<T: Serialize>(value: &T) -> Result<Vec<u8>> {
-    bincode::serde::encode_to_vec(value, configuration()).map_err(|error| Error::Invalid(error.to_string()))
-}
-
-/// Decodes a value that must fill `bytes` exactly.
-pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
-    match bincode::serde::decode_from_slice(bytes, configuration()) {
-        Ok((value, used)) if used == bytes.len() => Some(value),
-        _ => None,
     }
 }

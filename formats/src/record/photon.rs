@@ -1,7 +1,8 @@
 //! The photon: 20 bytes, in the spirit of Jensen's packed form (*Realistic Image Synthesis Using Photon Mapping*, 2001).
 
 use super::Record;
-use super::pack::{pack_direction, pack_rgbe, unpack_direction, unpack_rgbe};
+use super::direction::{pack_direction, unpack_direction};
+use super::rgbe::{pack_rgbe, unpack_rgbe};
 use crate::container::{Header, StreamKind};
 use bytemuck::{Pod, Zeroable};
 

@@ -1,7 +1,7 @@
 //! The gather query: 44 bytes, the size of the paper's deferred search (section 3.2).
 
 use super::Record;
-use super::pack::{pack_direction, unpack_direction};
+use super::direction::{pack_direction, unpack_direction};
 use crate::container::{Header, StreamKind};
 use bytemuck::{Pod, Zeroable};
 

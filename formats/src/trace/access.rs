@@ -1,36 +1,4 @@
-//! What a trace says: memory regions, accesses to them, and who listens.
-
-use serde::{Deserialize, Serialize};
-
-/// How the accesses of a region are coded in a trace; says nothing about what they mean.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Coding {
-    /// Each access by its own offset and length (deltas, variable-length integers).
-    Records,
-    /// The region is an array of `nodes` records in which record `i - 1` is node `i` of an implicit binary tree with
-    /// children `2i` and `2i + 1`; depth-first walks of it are coded as decision bits (two per inner node visited).
-    HeapWalk {
-        /// Number of nodes; node 1 is the root.
-        nodes: u32,
-        /// Each inner node is read a second time when all that is visited below it has been.
-        reread: bool,
-    },
-}
-
-/// One region of the traced memory. No two regions of a trace share a 4 KiB page.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Region {
-    /// What lives there, such as `photons` or `split planes`.
-    pub name: String,
-    /// First byte address; a multiple of 4096.
-    pub base: u64,
-    /// Size in bytes.
-    pub size: u64,
-    /// Bytes of one record of the region.
-    pub record_size: u32,
-    /// How accesses to the region are coded in the stream.
-    pub coding: Coding,
-}
+//! What a trace says: accesses to memory, and who listens.
 
 /// What an access does to memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -83,22 +51,4 @@ pub trait TraceSink {
     fn access(&mut self, access: Access);
     /// The search is over.
     fn search_end(&mut self) {}
-}
-
-/// Granularity at which regions are kept apart in the traced address space.
-pub const REGION_ALIGNMENT: u64 = 4096;
-
-/// Lays regions out one after another in one address space, each on its own pages.
-#[must_use]
-pub fn lay_out(regions: impl IntoIterator<Item = (String, u64, u32, Coding)>) -> Vec<Region> {
-    // The first page stays empty, so that address 0 is never a valid record.
-    let mut base = REGION_ALIGNMENT;
-    regions
-        .into_iter()
-        .map(|(name, size, record_size, coding)| {
-            let region = Region { name, base, size, record_size, coding };
-            base += size.next_multiple_of(REGION_ALIGNMENT).max(REGION_ALIGNMENT);
-            region
-        })
-        .collect()
 }

@@ -1,7 +1,9 @@
 //! Blocks into searches.
 
-use super::access::{Access, AccessKind, Coding, Region, TraceSink};
-use super::heap_walk::{self, BitReader};
+use super::access::{Access, AccessKind, TraceSink};
+use super::bits::BitReader;
+use super::heap_walk;
+use super::region::{Coding, Region};
 use super::varint::{take, unzigzag};
 use crate::container::{Block, Section};
 use crate::digest::Tally;

@@ -1,7 +1,9 @@
 //! Searches into blocks.
 
-use super::access::{Access, AccessKind, Coding, Region};
-use super::heap_walk::{self, BitWriter};
+use super::access::{Access, AccessKind};
+use super::bits::BitWriter;
+use super::heap_walk;
+use super::region::{Coding, Region};
 use super::varint::{push, zigzag};
 use crate::container::{Block, BlockMeta};
 use crate::digest::Tally;

@@ -6,5 +6,5 @@ mod accesses;
 mod exports;
 mod imports;
 
-pub use exports::try_exports;
-pub use imports::try_imports;
+pub use exports::exports;
+pub use imports::imports;

@@ -13,7 +13,7 @@ use pm_exchange::traces::{self, Opened, Reading, TraceExport, TraceImport};
 use pm_exchange::trial;
 use pm_formats::trace::{Access, BlockEncoder, Coding, TraceSink, TraceWriter, lay_out};
 use pm_formats::{BlockMeta, Header};
-use pm_programs::view;
+use pm_programs::{cachesim, view};
 use pm_registry::Registry;
 use shouts::Shouts;
 use std::fs;
@@ -30,26 +30,26 @@ fn exports() -> Registry<dyn TraceExport> {
 
 #[test]
 fn the_generic_tests_find_them() {
-    trial::try_imports(&imports());
-    trial::try_exports(&exports(), &imports());
+    trial::imports(&imports());
+    trial::exports(&exports(), &imports());
 }
 
 #[test]
 #[should_panic(expected = "boasts: what its example says")]
 fn an_example_that_says_something_else_is_found() {
-    trial::try_imports(&traces::imports().with(&Boasts));
+    trial::imports(&traces::imports().with(&Boasts));
 }
 
 #[test]
 #[should_panic(expected = "csv: what its example is taken for")]
 fn a_format_that_takes_others_for_its_own_is_found() {
-    trial::try_imports(&traces::imports().with(&Grabs));
+    trial::imports(&traces::imports().with(&Grabs));
 }
 
 #[test]
 #[should_panic(expected = "arrows: what was written is read again")]
 fn a_writer_that_leaves_out_what_it_says_it_carries_is_found() {
-    trial::try_exports(&Registry::new("format", &[&Forgets as &dyn TraceExport]), &imports());
+    trial::exports(&Registry::new("format", &[&Forgets as &dyn TraceExport]), &imports());
 }
 
 #[test]
@@ -68,6 +68,46 @@ fn the_help_and_the_errors_of_pm_view_have_them() {
         assert_eq!(outcome.code(), 2);
         let said = outcome.said();
         assert!(said.contains(&format!("'{word}'")) && said.contains("ramulator2, arrows, shouts]"), "{said}");
+    }
+}
+
+#[test]
+fn pm_cachesim_reads_them() {
+    let run = |words: &[&str]| {
+        let registries = cachesim::Registries { imports: imports(), ..Default::default() };
+        let mut table = vec![];
+        let outcome = cachesim::program(&registries).run(words, |args, typed| {
+            table = cachesim::run(&args, typed, &registries)?.unwrap_or_default();
+            Ok(())
+        });
+        (outcome, String::from_utf8(table).expect("text"))
+    };
+    let help = run(&["--help"]).0.help().expect("it was asked for");
+    assert!(help.contains("- beads:") && help.contains("Numbers of 16 bits on a string"), "{help}");
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("beads 2 and the address that of a word"), "{help}");
+    // What is only written is not read.
+    for word in ["nosuch", "shouts"] {
+        let outcome = run(&["--input", word, "x"]).0;
+        assert_eq!(outcome.code(), 2);
+        let said = outcome.said();
+        assert!(said.contains(&format!("'{word}'")) && said.contains("ramulator2, arrows, beads]"), "{said}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).expect("a file");
+        path.display().to_string()
+    };
+    let (arrows, beads) = (file("a", Arrows.example().input), file("b", Beads.example().input));
+    let question = ["--cache", "1K,full,64,lru", "--format", "csv"];
+    for (words, fetches) in [(vec![&*arrows], "3"), (vec!["--input", "beads", &beads], "2")] {
+        let (outcome, csv) = run(&[&question[..], &words].concat());
+        assert_eq!((outcome.code(), outcome.said()), (0, String::new()));
+        let mut lines = csv.lines().map(|line| line.rsplit(',').collect::<Vec<_>>());
+        let (names, values) = (lines.next().expect("names"), lines.next().expect("a row"));
+        let at = names.iter().position(|name| *name == "fetches").expect("a column");
+        assert_eq!(values[at], fetches, "{csv}");
     }
 }
 

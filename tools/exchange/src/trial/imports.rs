@@ -12,7 +12,7 @@ use pm_registry::Registry;
 ///
 /// # Panics
 /// If one of them does not.
-pub fn try_imports(imports: &Registry<dyn TraceImport>) {
+pub fn imports(imports: &Registry<dyn TraceImport>) {
     for import in imports.iter() {
         the_example_says_what_it_should(import, imports);
         it_is_recognised_as_it_says(import, imports);

@@ -1,0 +1,67 @@
+//! Single bits, written and read.
+
+/// Bits, least significant first within each byte.
+#[derive(Default)]
+pub(super) struct BitWriter {
+    pub(super) bytes: Vec<u8>,
+    pending: u64,
+    pub(super) count: u32,
+}
+
+impl BitWriter {
+    #[inline]
+    pub(super) fn push(&mut self, bit: bool) {
+        self.pending |= u64::from(bit) << self.count;
+        self.count += 1;
+        if self.count == 64 {
+            self.bytes.extend_from_slice(&self.pending.to_le_bytes());
+            (self.pending, self.count) = (0, 0);
+        }
+    }
+
+    /// Fills the last byte with zeros.
+    pub(super) fn align(&mut self) {
+        let whole = self.count.div_ceil(8) as usize;
+        self.bytes.extend_from_slice(&self.pending.to_le_bytes()[..whole]);
+        (self.pending, self.count) = (0, 0);
+    }
+
+    /// Forgets all bits since the writer was aligned at `len` bytes.
+    pub(super) fn rewind(&mut self, (len, pending, count): (usize, u64, u32)) {
+        self.bytes.truncate(len);
+        (self.pending, self.count) = (pending, count);
+    }
+
+    pub(super) fn mark(&self) -> (usize, u64, u32) {
+        (self.bytes.len(), self.pending, self.count)
+    }
+}
+
+/// Reads what [`BitWriter`] wrote.
+pub(super) struct BitReader<'a> {
+    bytes: &'a [u8],
+    position: usize,
+}
+
+impl<'a> BitReader<'a> {
+    pub(super) const fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, position: 0 }
+    }
+
+    #[inline(always)]
+    pub(super) fn bit(&mut self) -> Option<u32> {
+        let byte = *self.bytes.get(self.position >> 3)?;
+        let bit = u32::from(byte >> (self.position & 7)) & 1;
+        self.position += 1;
+        Some(bit)
+    }
+
+    pub(super) const fn align(&mut self) {
+        self.position = self.position.next_multiple_of(8);
+    }
+
+    /// Number of whole bytes read.
+    pub(super) const fn bytes_read(&self) -> usize {
+        self.position / 8
+    }
+}

@@ -1,0 +1,72 @@
+//! Traces, read a block at a time.
+
+use super::access::TraceSink;
+use super::decode::decode_searches;
+use super::region::check_regions;
+use crate::container::{BlockMeta, BlockReader, End, Header, StreamKind};
+use crate::digest::Tally;
+use crate::error::Result;
+use std::io::Read;
+
+/// Reads a trace and replays it into a [`TraceSink`].
+pub struct TraceReader<R> {
+    blocks: BlockReader<R>,
+    tally: Tally,
+}
+
+impl<R: Read> TraceReader<R> {
+    /// Reads the header; the stream must be a trace.
+    ///
+    /// # Errors
+    /// As [`BlockReader::new`], [`Error::WrongKind`](crate::Error::WrongKind), and [`Error::Damaged`](crate::Error::Damaged) for regions that make no sense.
+    pub fn new(input: R) -> Result<Self> {
+        Self::from_blocks(BlockReader::new(input)?)
+    }
+
+    /// Goes on from a stream whose header has been read.
+    ///
+    /// # Errors
+    /// [`Error::WrongKind`](crate::Error::WrongKind), and [`Error::Damaged`](crate::Error::Damaged) for regions that make no sense.
+    pub fn from_blocks(blocks: BlockReader<R>) -> Result<Self> {
+        let blocks = blocks.expect_kind(StreamKind::Trace)?;
+        match check_regions(&blocks.header().regions) {
+            Ok(()) => Ok(Self { blocks, tally: Tally::default() }),
+            Err(what) => Err(blocks.damaged(what)),
+        }
+    }
+
+    /// What the trace is about.
+    #[must_use]
+    pub const fn header(&self) -> &Header {
+        self.blocks.header()
+    }
+
+    /// What was read so far; records are searches.
+    #[must_use]
+    pub const fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    /// Replays the next block; `None` at the end. Only a whole trace has an end.
+    ///
+    /// # Errors
+    /// As [`BlockReader::next_block`] and [`BlockReader::end`].
+    pub fn replay_block(&mut self, sink: &mut impl TraceSink) -> Result<Option<BlockMeta>> {
+        let Some(block) = self.blocks.next_block()? else {
+            self.blocks.end(self.tally)?;
+            return Ok(None);
+        };
+        let tally = decode_searches(&block, &self.blocks.header().regions, sink)
+            .ok_or_else(|| self.blocks.damaged("a block does not hold its searches"))?;
+        self.tally += tally;
+        Ok(Some(block.meta))
+    }
+
+    /// The end block, after [`replay_block`](Self::replay_block) has returned `None`.
+    ///
+    /// # Errors
+    /// [`Error::Incomplete`](crate::Error::Incomplete) before that.
+    pub fn end(&self) -> Result<&End> {
+        self.blocks.end(self.tally)
+    }
+}
