@@ -28,7 +28,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("report", &["registry", "size"]),
     // Never caches or maps: it knows programs by what they print.
     ("sweep", &["registry", "sampling"]),
-    ("verdicts", &["registry", "size", "sweep"]),
+    ("verdicts", &["registry", "report", "sweep"]),
 ];
 
 /// The crate of the command line, which may know all others and which none may know.

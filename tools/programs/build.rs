@@ -12,8 +12,8 @@ const SOURCES: [&str; 5] = ["Cargo.lock", "Cargo.toml", "formats", "scenes", "to
 const NOT_BUILT: [&str; 4] = ["tests", "benches", "examples", "target"];
 
 /// Sources that make tables and pages of rows, and no row and no stream.
-const REPORTING: [&str; 6] =
-    ["tools/report/", "tools/sweep/", "src/sweep", "src/chart", "bin/pm-sweep", "bin/pm-chart"];
+const REPORTING: [&str; 7] =
+    ["tools/report/", "tools/sweep/", "tools/verdicts/", "src/sweep", "src/chart", "bin/pm-sweep", "bin/pm-chart"];
 
 fn main() {
     let git = |arguments: &[&str]| {

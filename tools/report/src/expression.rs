@@ -4,6 +4,7 @@
 //! `row(FILE, COLUMN=VALUE, ...)` is the row of a sheet that has these values, and `.COLUMN` behind it what stands there.
 //! Where several rows fit they have to say the same. An [`Evaluator`] keeps count of the places that a value came from.
 
+mod asked;
 mod place;
 mod row;
 
@@ -15,10 +16,10 @@ use std::collections::BTreeMap;
 use std::error::Error as _;
 use std::sync::Arc;
 
+pub use asked::names_asked;
 pub use place::Place;
 use place::Places;
-use row::Row;
-pub(crate) use row::{cell, conditions, is};
+use row::{Row, conditions};
 
 /// A name that stands for an expression, and where that was said.
 #[derive(Clone, Debug)]
@@ -161,12 +162,12 @@ impl Object for Known {
 }
 
 /// An error of ours on its way through the library.
-pub(crate) fn inner(error: ReportError) -> minijinja::Error {
+fn inner(error: ReportError) -> minijinja::Error {
     minijinja::Error::new(ErrorKind::InvalidOperation, error.to_string()).with_source(error)
 }
 
 /// An error of the library's as ours; the one that was ours before, if it was.
-pub(crate) fn outer(error: &minijinja::Error, places: &[Place]) -> ReportError {
+fn outer(error: &minijinja::Error, places: &[Place]) -> ReportError {
     let mut cause = error.source();
     while let Some(found) = cause {
         if let Some(ours) = found.downcast_ref::<ReportError>() {

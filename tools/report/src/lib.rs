@@ -11,7 +11,7 @@
 //! A ratio that does not exist, such as fetches per query of no queries, is `-`, an empty field and `null`.
 //!
 //! A [`Sheet`](sheet::Sheet) is such a table read back. [`expression`] reckons with the numbers of sheets, [`chart`] draws
-//! them, [`page`] puts them on a page, and [`template`] makes a text of them.
+//! them, and [`page`] puts them on a page.
 
 pub mod chart;
 pub mod error;
@@ -19,7 +19,6 @@ pub mod expression;
 pub mod page;
 pub mod sheet;
 mod table;
-pub mod template;
 
 pub use error::ReportError;
 /// The same by its earlier name.

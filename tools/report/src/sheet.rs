@@ -4,6 +4,7 @@ mod choose;
 mod files;
 
 use crate::ReportError;
+use csv::StringRecord;
 
 pub use choose::Values;
 pub use files::Sheets;
@@ -13,7 +14,7 @@ pub use files::Sheets;
 pub struct Sheet {
     pub(crate) name: String,
     pub(crate) columns: Vec<String>,
-    pub(crate) rows: Vec<Vec<String>>,
+    pub(crate) rows: Vec<StringRecord>,
     /// The line of each row, the first being 1.
     pub(crate) lines: Vec<u64>,
 }
@@ -24,29 +25,33 @@ impl Sheet {
     /// # Errors
     /// If it is not CSV, or empty.
     pub fn parse(name: &str, text: &[u8]) -> Result<Self, ReportError> {
-        Self::read(name, text, false, csv::ReaderBuilder::new().trim(csv::Trim::All))
+        let sheet = Self::read(name, text, false, csv::ReaderBuilder::new().trim(csv::Trim::All))?;
+        match sheet.columns.is_empty() {
+            true => Err(ReportError::read(format!("{name}: the table is empty"))),
+            false => Ok(sheet),
+        }
     }
 
-    /// Reads a table in which lines that begin with `#` are remarks.
+    /// Reads what programs print: fields between commas, or between tabs if there is one in the line of names. Lines that
+    /// begin with `#` are remarks. Of nothing, there are no columns and no rows.
     ///
     /// # Errors
-    /// If it is not CSV, or empty.
+    /// If it is no such text.
     pub fn parse_with_remarks(name: &str, text: &[u8]) -> Result<Self, ReportError> {
-        Self::read(name, text, true, csv::ReaderBuilder::new().comment(Some(b'#')))
+        let names = text.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+        let delimiter = if names.contains(&b'\t') { b'\t' } else { b',' };
+        Self::read(name, text, true, csv::ReaderBuilder::new().comment(Some(b'#')).delimiter(delimiter))
     }
 
     fn read(name: &str, text: &[u8], remarks: bool, reader: &csv::ReaderBuilder) -> Result<Self, ReportError> {
         let mut reader = reader.from_reader(text);
         let wrong = |error: csv::Error| ReportError::read(format!("{name}: {error}"));
         let columns: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-        if columns.is_empty() {
-            return Err(ReportError::read(format!("{name}: the table is empty")));
-        }
         let (mut rows, mut lines) = (vec![], vec![]);
         for record in reader.records() {
             let record = record.map_err(wrong)?;
             lines.push(record.position().map_or(0, |before| line_of_record(text, before, remarks)));
-            rows.push(record.iter().map(str::to_owned).collect());
+            rows.push(record);
         }
         Ok(Self { name: name.to_owned(), columns, rows, lines })
     }
@@ -65,7 +70,7 @@ impl Sheet {
 
     /// Its rows, each with a field for every column.
     #[must_use]
-    pub fn rows(&self) -> &[Vec<String>] {
+    pub fn rows(&self) -> &[StringRecord] {
         &self.rows
     }
 
@@ -100,7 +105,7 @@ impl Sheet {
             }
         }
         for row in &other.rows {
-            let field = |column: &String| other.find(column).map_or(String::new(), |at| row[at].clone());
+            let field = |column: &String| other.find(column).map_or("", |at| &row[at]);
             self.rows.push(self.columns.iter().map(field).collect());
         }
         self.lines.extend(&other.lines);
@@ -110,31 +115,19 @@ impl Sheet {
     /// Adds a column with these fields.
     pub(crate) fn add_column(&mut self, name: &str, fields: Vec<String>) {
         self.columns.push(name.to_owned());
-        self.rows.iter_mut().zip(fields).for_each(|(row, field)| row.push(field));
+        self.rows.iter_mut().zip(fields).for_each(|(row, field)| row.push_field(&field));
     }
 
     /// These columns as CSV, with their names.
     pub(crate) fn as_csv(&self, columns: &[usize]) -> String {
-        as_csv(std::iter::once(&self.columns).chain(&self.rows), columns)
-    }
-
-    /// These fields of a row as CSV, without an end of line.
-    pub(crate) fn row_as_csv(&self, row: usize, columns: &[usize]) -> String {
-        match columns {
-            // A record that is nothing but an empty field would have to be quoted; this may be a part of one.
-            &[column] if self.rows[row][column].is_empty() => String::new(),
-            _ => as_csv([&self.rows[row]], columns).trim_end_matches('\n').to_owned(),
-        }
-    }
-}
-
-fn as_csv<'a>(records: impl IntoIterator<Item = &'a Vec<String>>, columns: &[usize]) -> String {
-    let mut writer = csv::Writer::from_writer(vec![]);
-    for record in records {
+        let mut writer = csv::Writer::from_writer(vec![]);
         // Into memory, with as many fields in each row: this does not fail.
-        let _ = writer.write_record(columns.iter().map(|&column| &record[column]));
+        let _ = writer.write_record(columns.iter().map(|&column| &self.columns[column]));
+        for row in &self.rows {
+            let _ = writer.write_record(columns.iter().map(|&column| &row[column]));
+        }
+        writer.into_inner().map_or(String::new(), |csv| String::from_utf8_lossy(&csv).into_owned())
     }
-    writer.into_inner().map_or(String::new(), |csv| String::from_utf8_lossy(&csv).into_owned())
 }
 
 /// The line that a record begins on, where the reader was `before` it: lines that are empty, or remarks, may lie between.
@@ -163,7 +156,7 @@ mod tests {
         let mut table = sheet("a,b\n1,2\n");
         table.append(&sheet("b,c\n3,4\n"));
         assert_eq!(table.columns, ["a", "b", "c"]);
-        assert_eq!(table.rows, [["1", "2", ""], ["", "3", "4"]]);
+        assert_eq!(table.rows, [vec!["1", "2", ""], vec!["", "3", "4"]]);
     }
 
     #[test]

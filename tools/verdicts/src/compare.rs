@@ -2,8 +2,9 @@
 
 use crate::derivation::fail;
 use crate::table::Row;
-use crate::traffic::{PAPER_CACHE, share};
-use crate::{Asked, Derivation, Derived, Table, VerdictError};
+use crate::traffic::{of_papers_cache, share};
+use crate::{Asked, Derivation, Derived, Table};
+use pm_report::ReportError;
 use std::fmt::Write as _;
 
 /// Sets the orders beside each other and beside the paper.
@@ -26,7 +27,7 @@ const TILE: u64 = 16;
 /// The order of the paper's figures.
 const PLAIN: &str = "scanline";
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let size: String = asked.needed("size")?;
     let sides = size.split_once('x').and_then(|(w, h)| Some((w.parse::<u64>().ok()?, h.parse::<u64>().ok()?)));
     let Some((width, height)) = sides else { return fail(format!("size={size} is no WIDTHxHEIGHT")) };
@@ -36,15 +37,15 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
     let mut text = heads();
     let (mut whole, mut queries, mut with_rows) = (None, 0.0, 0);
     for table in results {
-        let mut rows = table.rows().filter(|row| row.number("cache_bytes") == PAPER_CACHE).peekable();
-        with_rows += usize::from(rows.peek().is_some());
+        let rows = of_papers_cache(table)?;
+        with_rows += usize::from(!rows.is_empty());
         for row in rows {
-            let name = if table.has("point") { row.text("point") } else { table.stem() };
-            queries = row.number("queries");
+            let name = row.if_any("point").unwrap_or(table.stem());
+            queries = row.number("queries")?;
             if name == PLAIN {
-                whole = Some((row.number("bytes_fetched") / 1e6, row.number("fetches")));
+                whole = Some((row.number("bytes_fetched")? / 1e6, row.number("fetches")?));
             }
-            text += &line(name, row, paper, tiles as f64, whole.map(|(mb, _)| mb));
+            text += &line(name, row, paper, tiles as f64, whole.map(|(mb, _)| mb))?;
         }
     }
     // A row that is missing means a command that did not do its work, whatever exit code it gave.
@@ -87,11 +88,11 @@ fn heads() -> String {
     )
 }
 
-fn line(name: &str, row: Row<'_>, paper: &Table, tiles: f64, whole: Option<f64>) -> String {
+fn line(name: &str, row: Row<'_>, paper: &Table, tiles: f64, whole: Option<f64>) -> Result<String, ReportError> {
     let base = ["-inf", "-preorder", "-reread"].iter().find_map(|ending| name.strip_suffix(ending)).unwrap_or(name);
-    let of_paper = paper.rows().find(|row| row.text("order") == base);
-    let unit = of_paper.map_or("", |row| row.text("unit"));
-    let (per_query, per_block) = (row.number("fetches_per_query"), row.number("fetches_per_block"));
+    let of_paper = paper.rows().find(|row| row.if_any("order") == Some(base));
+    let unit = of_paper.map_or(Ok(""), |row| row.text("unit"))?;
+    let (per_query, per_block) = (row.number("fetches_per_query")?, row.number("fetches_per_block")?);
     let unit = match base {
         "random" if unit.is_empty() => "fetches per query",
         "tiled" if unit.is_empty() => "fetches per block and tile",
@@ -103,11 +104,11 @@ fn line(name: &str, row: Row<'_>, paper: &Table, tiles: f64, whole: Option<f64>)
         "fetches per block and tile" => format!("{:.2} {unit}", per_block / tiles),
         _ => String::new(),
     };
-    let mb = row.number("bytes_fetched") / 1e6;
+    let mb = row.number("bytes_fetched")? / 1e6;
     let share = whole.map_or("-".to_owned(), |whole| share(mb, whole));
-    format!(
+    Ok(format!(
         "{name:<18} {:>9.1} {per_query:>9.3} {per_block:>11.2} {mb:>12.1} {share:>12}   {own:<34} {}\n",
-        row.number("reads_per_query"),
-        of_paper.map_or("-", |row| row.text("value"))
-    )
+        row.number("reads_per_query")?,
+        of_paper.map_or(Ok("-"), |row| row.text("value"))?
+    ))
 }

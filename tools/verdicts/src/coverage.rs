@@ -1,6 +1,7 @@
 //! Do intervals hold the truth as often as they say?
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
 use std::fmt::Write as _;
 
 /// Shows what `make coverage` found, in percent of the truth. It does not hold if a row is missing, intervals hold the truth
@@ -17,7 +18,7 @@ const ROWS: usize = 10;
 const LEAST_COVERAGE: f64 = 0.93;
 const MOST_WIDTH: f64 = 1.3;
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let mut text = String::new();
     let heads = [
         ["", "", "", "windows", "simulated", "", "mean", "in", "", "", "width over"],
@@ -32,25 +33,25 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
     let (mut rows, mut bad) = (0, String::new());
     for row in asked.table(0)?.rows() {
         rows += 1;
-        let percent = |name: &str| 100.0 * row.number(name);
-        let (order, rule) = (row.text("order"), row.text("rule"));
+        let percent = |name: &str| Ok::<f64, ReportError>(100.0 * row.number(name)?);
+        let (order, rule) = (row.text("order")?, row.text("rule")?);
         let _ = writeln!(
             text,
             "{order:<14} {rule:<6} {:>7.2} {:>9.1} {:>9.2} {:>11.1} {:>7.2} {:>7.2} {:>7.2} {:>9.2} {:>10.2}",
-            row.number("truth"),
-            row.number("windows"),
-            percent("sampled_share"),
-            percent("coverage"),
-            percent("mean_half_width"),
-            percent("mean_doubt"),
-            percent("bias"),
-            percent("spread"),
-            row.number("ratio")
+            row.number("truth")?,
+            row.number("windows")?,
+            percent("sampled_share")?,
+            percent("coverage")?,
+            percent("mean_half_width")?,
+            percent("mean_doubt")?,
+            percent("bias")?,
+            percent("spread")?,
+            row.number("ratio")?
         );
-        if row.number("coverage") < LEAST_COVERAGE {
+        if row.number("coverage")? < LEAST_COVERAGE {
             bad += &format!(" {order}/{rule} (held too seldom)");
         }
-        if row.number("ratio") > MOST_WIDTH {
+        if row.number("ratio")? > MOST_WIDTH {
             bad += &format!(" {order}/{rule} (too wide)");
         }
     }

@@ -2,6 +2,8 @@
 
 use crate::Table;
 use pm_registry::{Registered, Registry};
+use pm_report::ReportError;
+use pm_report::sheet::Sheets;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::str::FromStr;
@@ -15,7 +17,7 @@ pub struct Derivation {
     /// Names of the settings that it takes.
     pub settings: &'static [&'static str],
     /// Makes it.
-    pub derive: fn(&Asked<'_>) -> Result<Derived, VerdictError>,
+    pub derive: fn(&Asked<'_>) -> Result<Derived, ReportError>,
 }
 
 /// What a derivation is made of.
@@ -24,8 +26,8 @@ pub struct Asked<'a> {
     pub tables: &'a [Table],
     /// Settings by name.
     pub settings: &'a BTreeMap<String, String>,
-    /// Looks up another table.
-    pub look_up: &'a dyn Fn(&str) -> Option<Table>,
+    /// Further results, looked up by the names of their files.
+    pub results: &'a Sheets,
 }
 
 /// What came of it.
@@ -43,14 +45,9 @@ impl From<String> for Derived {
     }
 }
 
-/// Why nothing can be derived.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct VerdictError(pub String);
-
 /// An error that says so.
-pub(crate) fn fail<T>(text: impl Display) -> Result<T, VerdictError> {
-    Err(VerdictError(text.to_string()))
+pub(crate) fn fail<T>(text: impl Display) -> Result<T, ReportError> {
+    Err(ReportError::asked(text.to_string()))
 }
 
 impl Registered for Derivation {
@@ -94,18 +91,31 @@ pub fn derivations() -> Registry<Derivation> {
 
 impl Asked<'_> {
     /// The table at a place.
-    pub(crate) fn table(&self, at: usize) -> Result<&Table, VerdictError> {
+    pub(crate) fn table(&self, at: usize) -> Result<&Table, ReportError> {
         self.tables.get(at).map_or_else(|| fail(format!("{} tables are wanted, or more", at + 1)), Ok)
     }
 
     /// A setting, if it was made.
-    pub(crate) fn setting<T: FromStr>(&self, name: &str) -> Result<Option<T>, VerdictError> {
+    pub(crate) fn setting<T: FromStr>(&self, name: &str) -> Result<Option<T>, ReportError> {
         let Some(text) = self.settings.get(name) else { return Ok(None) };
         text.parse().map_or_else(|_| fail(format!("{name}={text} is not understood")), |value| Ok(Some(value)))
     }
 
     /// A setting that has to be made.
-    pub(crate) fn needed<T: FromStr>(&self, name: &str) -> Result<T, VerdictError> {
+    pub(crate) fn needed<T: FromStr>(&self, name: &str) -> Result<T, ReportError> {
         self.setting(name)?.map_or_else(|| fail(format!("give --with {name}=...")), Ok)
     }
+}
+
+/// What is derived of tables, each with its name, and settings.
+#[cfg(test)]
+pub(crate) fn derived(
+    derivation: &Derivation,
+    tables: &[(&str, &str)],
+    settings: &[(&str, &str)],
+) -> Result<Derived, ReportError> {
+    let tables = tables.iter().map(|(name, text)| Table::read(name, (*text).to_owned()));
+    let tables = tables.collect::<Result<Vec<_>, ReportError>>()?;
+    let settings = settings.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    (derivation.derive)(&Asked { tables: &tables, settings: &settings, results: &Sheets::default() })
 }

@@ -1,6 +1,7 @@
 //! Experiments in full.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
 
 /// A table of sweeps with nothing cut into windows and nothing thinned.
 pub(crate) const EXACT: Derivation = Derivation {
@@ -13,10 +14,10 @@ pub(crate) const EXACT: Derivation = Derivation {
 /// What is about samples stays as it is.
 const ABOUT_SAMPLES: [&str; 5] = ["convergence", "failures", "frontier", "sampling", "structures"];
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let table = asked.table(0)?;
     if ABOUT_SAMPLES.contains(&table.stem()) {
-        return Ok(table.text.clone().into());
+        return Ok(table.text().to_owned().into());
     }
     let line = |line: &str| {
         let mut line = line.replace(" || ", " | ");
@@ -29,7 +30,7 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
         let line = line.replace(",sampled,", ",full,").replace(",thinned,", ",full,").replace(",1/64,", ",1,");
         line.replace("--size 90x90", "--size 512x512") + "\n"
     };
-    Ok(table.text.lines().map(line).collect::<String>().into())
+    Ok(table.text().lines().map(line).collect::<String>().into())
 }
 
 /// A line without an option and its value: a number, or the word of a label, if there may be one.
@@ -52,14 +53,14 @@ fn without(line: &str, option: &str, label: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Table;
-    use std::collections::BTreeMap;
+    use crate::derivation::derived;
 
     #[test]
     fn samples_become_the_whole() {
         let text = "a,b\nx,sampled,--size 90x90 --only-tiles 32 --warm-up {setting} || pm-sample -q --every 5 --window 2 --warm-up 1 | pm-reorder,1/64,\n";
-        let tables = [Table::read("scripts/sweeps/table1.csv", text.into()).unwrap()];
-        let asked = Asked { tables: &tables, settings: &BTreeMap::new(), look_up: &|_| None };
-        assert_eq!(derive(&asked).unwrap().text, "a,b\nx,full,--size 512x512 | pm-reorder,1,\n");
+        assert_eq!(
+            derived(&EXACT, &[("scripts/sweeps/table1.csv", text)], &[]).unwrap().text,
+            "a,b\nx,full,--size 512x512 | pm-reorder,1,\n"
+        );
     }
 }

@@ -1,7 +1,9 @@
 //! What arrives at the surfaces of the diffuse Cornell box.
 
 use crate::derivation::fail;
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::table::csv;
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
 use pm_sweep::significant;
 use std::f64::consts::PI;
 
@@ -38,15 +40,15 @@ fn surface(x: f64, y: f64, z: f64) -> usize {
     }
 }
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let paths: f64 = asked.needed("paths")?;
     let mut flux = [[0.0; 3]; SURFACES.len()];
     let mut photons = 0;
     for row in asked.table(0)?.rows() {
         photons += 1;
-        let at = surface(row.number("x"), row.number("y"), row.number("z"));
+        let at = surface(row.number("x")?, row.number("y")?, row.number("z")?);
         for (sum, name) in flux[at].iter_mut().zip(["power_r", "power_g", "power_b"]) {
-            *sum += row.number(name);
+            *sum += row.number(name)?;
         }
     }
     if photons == 0 {
@@ -57,7 +59,7 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
     let named = SURFACES.iter().zip(&flux).chain([(&"all", &all)]);
     let row = |(name, flux): (&&str, &[f64; 3])| {
         let share = |c: usize| significant(flux[c] / paths / (PI * AREA * RADIANCE[c]), 9);
-        format!("{name},{},{},{}\n", share(0), share(1), share(2))
+        [(*name).to_owned(), share(0), share(1), share(2)]
     };
-    Ok(format!("name,r,g,b\n{}", named.map(row).collect::<String>()).into())
+    Ok(csv(["name", "r", "g", "b"], named.map(row)).into())
 }

@@ -1,15 +1,23 @@
-//! The points of the frontier: bytes on chip against all traffic.
+//! What all bytes on chip buy, in all bytes of traffic: the points of orders and caches, and which of them no other beats.
+//!
+//! On chip is the cache, what the order needs and the cache of results. A cache larger than the map holds the map; of those
+//! only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared nothing
+//! but the first touch of a line, so that its map and result traffic are at most so large. What an earlier table has in full,
+//! with the same photons, is not taken from a later one, nor is what is thinned of an order that it has.
 
-use crate::{Asked, Derivation, Derived, Table, VerdictError};
-use std::collections::HashSet;
+mod point;
+mod rows;
 
-/// From joined rows of sweeps (what is simulated in full first) to the points of the frontier.
-///
-/// On chip is the cache, what the order needs and the cache of results. A cache larger than the map holds the map; of those
-/// only the least is kept. What is thinned (one query in so many of a sorted stream) is multiplied as if searches shared
-/// nothing but the first touch of a line, so that its map and result traffic are at most so large. `best` is a point that no
-/// other of its series, with the same record, beats on both axes. What an earlier table has in full, with the same photons,
-/// is not taken from a later one, nor is what is thinned of an order that it has.
+use crate::table::csv;
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
+use pm_report::chart::unbeaten;
+use point::Point;
+use rows::{Key, Row};
+use std::collections::BTreeSet;
+
+/// From joined rows of sweeps (what is simulated in full first) to the points of the frontier. `best` is a point that no other
+/// of its series, with the same records, beats on both axes.
 pub(crate) const FRONTIER: Derivation = Derivation {
     word: "frontier",
     help: "The points of the frontier, of joined rows: bytes on chip against all traffic",
@@ -17,125 +25,61 @@ pub(crate) const FRONTIER: Derivation = Derivation {
     derive,
 };
 
-/// Bytes of the cache of results.
-const RESULTS: f64 = 16_384.0;
+/// The series of caches that hold the whole map: no order matters to them.
+pub(crate) const HOLDS_THE_MAP: &str = "cache holds the map";
 
-const NAMES: &str = "photons,series,record,point,share,found,cache_bytes,order_bytes,on_chip_bytes,map_bytes,query_bytes,\
-                     result_bytes,total_bytes,best";
+/// The order that stores no queries.
+const PLAIN: &str = "scanline";
 
-/// Who a point is.
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct Name {
-    photons: String,
-    series: String,
-    record: String,
-    point: String,
-}
-
-#[derive(Clone)]
-struct Point {
-    name: Name,
-    /// Share, how it was found, bytes of the cache and of the order, as the rows have them.
-    given: String,
-    on_chip: f64,
-    /// Map, queries, results.
-    parts: [f64; 3],
-    total: f64,
-}
-
-/// What a table in full has: points, and the series they are of.
-type InFull = HashSet<(String, String, String, Option<String>)>;
-
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let mut points = vec![];
-    let mut in_full = InFull::new();
-    for (at, table) in asked.tables.iter().enumerate() {
-        collect(table, at == 0, &mut in_full, &mut points);
+    let mut in_full: BTreeSet<Key> = BTreeSet::new();
+    for (number, table) in asked.tables.iter().enumerate() {
+        let rows = rows::read(table)?;
+        let (mut last, mut holds) = (None, false);
+        for row in &rows {
+            if last != Some(&row.key) {
+                holds = false;
+            }
+            last = Some(&row.key);
+            let order = Key { point: None, ..row.key.clone() };
+            if number == 0 {
+                in_full.extend([row.key.clone(), order]);
+            } else if in_full.contains(&row.key) || row.found == "thinned" && in_full.contains(&order) {
+                continue;
+            }
+            if holds {
+                continue;
+            }
+            holds = row.holds_the_map();
+            points.push(Point::new(row, &row.key.series));
+            if holds && row.key.series == PLAIN {
+                points.push(Point::new(row, HOLDS_THE_MAP));
+            }
+        }
     }
-    let mut text = NAMES.to_owned() + "\n";
-    for point in &points {
-        let of_series = |other: &&Point| {
-            other.name.photons == point.name.photons
-                && other.name.series == point.name.series
-                && other.name.record == point.name.record
-        };
-        let beats = |other: &Point| {
-            other.on_chip <= point.on_chip
-                && other.total <= point.total
-                && (other.on_chip < point.on_chip || other.total < point.total)
-        };
-        let best = !points.iter().filter(of_series).any(beats);
-        text += &line(point, &point.name.record, best);
+    Ok(with_the_best(&points).into())
+}
+
+/// The table of points, and which of them are best.
+fn with_the_best(points: &[Point]) -> String {
+    let mut best = vec![false; points.len()];
+    let groups: BTreeSet<[&str; 3]> = points.iter().map(Point::group).collect();
+    for group in groups {
+        let of_it: Vec<usize> = (0..points.len()).filter(|&at| points[at].group() == group).collect();
+        let places: Vec<(f64, f64)> = of_it.iter().map(|&at| (points[at].on_chip, points[at].traffic())).collect();
+        of_it.iter().zip(unbeaten(&places)).for_each(|(&at, unbeaten)| best[at] = unbeaten);
+    }
+    let mut rows = vec![];
+    for (point, best) in points.iter().zip(best) {
+        rows.push(point.cells(&point.record, best));
         // What stores no queries stands beside both kinds of records.
-        if ["scanline", HELD].contains(&&*point.name.series) && point.name.record == "full" {
-            text += &line(point, "compact", best);
+        if [PLAIN, HOLDS_THE_MAP].contains(&&*point.series) && point.record == "full" {
+            rows.push(point.cells("compact", best));
         }
     }
-    Ok(text.into())
+    csv(point::COLUMNS, rows)
 }
 
-/// The series of caches that hold the map.
-const HELD: &str = "cache holds the map";
-
-fn line(point: &Point, record: &str, best: bool) -> String {
-    let Point { name, given, on_chip, parts: [map, query, result], total } = point;
-    let Name { photons, series, point, .. } = name;
-    let best = if best { "yes" } else { "no" };
-    format!(
-        "{photons},{series},{record},{point},{given},{on_chip:.0},{map:.0},{query:.0},{result:.0},{total:.0},{best}\n"
-    )
-}
-
-fn collect(table: &Table, is_first: bool, in_full: &mut InFull, points: &mut Vec<Point>) {
-    let (mut holds, mut last) = (false, None);
-    for row in table.rows() {
-        if table.has("start") && row.text("start") != "auto" || table.has("map") && row.text("map") != "kd" {
-            continue;
-        }
-        let series = row.text("order");
-        let photons = if table.has("n") { row.text("n") } else { "450000" };
-        let mut point = series.to_owned();
-        for part in [row.text("tile"), row.text("store")].into_iter().filter(|part| !part.is_empty()) {
-            point = point + "-" + part;
-        }
-        let name = Name { photons: photons.into(), series: series.into(), record: row.text("record").into(), point };
-        if last.as_ref() != Some(&name) {
-            holds = false;
-        }
-        last = Some(name.clone());
-        let of_all = (name.photons.clone(), name.series.clone(), name.record.clone(), None);
-        let of_point = (name.photons.clone(), name.series.clone(), name.record.clone(), Some(name.point.clone()));
-        if is_first {
-            in_full.extend([of_all, of_point]);
-        } else if in_full.contains(&of_point) || row.text("found") == "thinned" && in_full.contains(&of_all) {
-            continue;
-        }
-        if holds {
-            continue;
-        }
-        let point = traffic(row, name);
-        holds = row.number("fetches") == row.number("compulsory");
-        points.push(point.clone());
-        if holds && series == "scanline" {
-            points.push(Point { name: Name { series: HELD.into(), ..point.name.clone() }, ..point });
-        }
-    }
-}
-
-/// The traffic of the whole image, by the share of it that was simulated.
-fn traffic(row: crate::table::Row<'_>, name: Name) -> Point {
-    let share = row.text("share");
-    let times: f64 = share.strip_prefix("1/").unwrap_or(share).parse().unwrap_or(0.0);
-    // No line is fetched for the first time twice.
-    let first = (row.number("compulsory") * times).min(row.number("blocks"));
-    let again = (row.number("fetches") - row.number("compulsory")) * times;
-    let map = (again + first) * row.number("line_bytes") + row.number("bytes_written_back") * times;
-    let (query, result) = (row.number("query_bytes") * times, row.number("result_bytes") * times);
-    Point {
-        name,
-        given: [share, row.text("found"), row.text("cache_bytes"), row.text("order_bytes_on_chip")].join(","),
-        on_chip: row.number("cache_bytes") + row.number("order_bytes_on_chip") + RESULTS,
-        parts: [map, query, result],
-        total: map + query + result,
-    }
-}
+#[cfg(test)]
+mod tests;

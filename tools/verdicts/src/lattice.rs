@@ -1,6 +1,7 @@
 //! Points in a plane, to import.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
 use pm_sweep::significant;
 use std::fmt::Write as _;
 
@@ -12,7 +13,7 @@ pub(crate) const LATTICE: Derivation = Derivation {
     derive,
 };
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let (side, height) = (asked.needed::<u32>("side")?, asked.needed::<f64>("height")?);
     let number = |x: f64| significant(x, 6);
     let at = |i: u32| number(f64::from(i) / f64::from(side));
@@ -28,13 +29,11 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
+    use crate::derivation::derived;
 
     #[test]
     fn a_square_of_points() {
-        let settings: BTreeMap<_, _> =
-            [("side", "3"), ("height", "1")].map(|(name, value)| (name.to_owned(), value.to_owned())).into();
-        let text = derive(&Asked { tables: &[], settings: &settings, look_up: &|_| None }).unwrap().text;
+        let text = derived(&LATTICE, &[], &[("side", "3"), ("height", "1")]).unwrap().text;
         let expected = "x,y,z\n0,1,0\n0.333333,1,0\n0.666667,1,0\n0,1,0.333333\n0.333333,1,0.333333\n";
         assert!(text.starts_with(expected) && text.lines().count() == 10, "{text}");
     }

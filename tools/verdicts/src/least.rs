@@ -1,6 +1,9 @@
 //! The least traffic that bytes on chip buy.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::frontier::HOLDS_THE_MAP;
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
+use pm_report::sheet::number;
 use std::fmt::Write as _;
 
 /// The least traffic that bytes on chip buy, and the order that has it.
@@ -23,23 +26,27 @@ const SIZES: [(&str, f64); 6] = [
 /// The least traffic of each size, and who has it.
 type Least<'a> = [Option<(f64, &'a str)>; SIZES.len()];
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let mut found: Vec<((&str, &str), Least<'_>)> = vec![];
-    for row in asked.table(0)?.rows().filter(|row| row.text("series") != "cache holds the map") {
-        let key = (row.text("photons"), row.text("record"));
+    for row in asked.table(0)?.rows() {
+        if row.text("series")? == HOLDS_THE_MAP {
+            continue;
+        }
+        let key = (row.text("photons")?, row.text("record")?);
         if !found.iter().any(|(other, _)| *other == key) {
             found.push((key, [None; SIZES.len()]));
         }
         let (_, least) = found.iter_mut().find(|(other, _)| *other == key).expect("just put there");
-        let total = row.number("total_bytes");
+        let (on_chip, total, point) = (row.number("on_chip_bytes")?, row.number("total_bytes")?, row.text("point")?);
         for ((_, bytes), least) in SIZES.iter().zip(least) {
-            if row.number("on_chip_bytes") <= *bytes && least.is_none_or(|(other, _)| total < other) {
-                *least = Some((total, row.text("point")));
+            if on_chip <= *bytes && least.is_none_or(|(other, _)| total < other) {
+                *least = Some((total, point));
             }
         }
     }
     // Small maps first.
-    found.sort_by(|a, b| number(a.0.0).total_cmp(&number(b.0.0)));
+    let photons = |key: (&str, &str)| number(key.0).unwrap_or(0.0);
+    found.sort_by(|(a, _), (b, _)| photons(*a).total_cmp(&photons(*b)));
     let mut text = "Least traffic by all bytes on chip:\n".to_owned();
     let _ = writeln!(text, "{:>8}  {:<8} {:>8} {:>9}  order", "photons", "records", "on chip", "GB");
     for ((photons, record), least) in found {
@@ -50,8 +57,4 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
         }
     }
     Ok(text.into())
-}
-
-fn number(text: &str) -> f64 {
-    text.parse().unwrap_or(0.0)
 }

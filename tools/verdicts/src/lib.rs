@@ -1,7 +1,7 @@
 //! What results say: tables that are derived from the rows of sweeps, and judgements on them.
 //!
 //! Each is a file here and a line in [`derivations`]: from tables, and perhaps some settings, to a text. A judgement says as
-//! well what does not hold. None reads a file: whoever asks brings the tables, and the means to look up others.
+//! well what does not hold. Whoever asks brings the tables, and says where others are.
 
 mod accuracy;
 mod batches;
@@ -17,6 +17,7 @@ mod frontier;
 mod lattice;
 mod least;
 mod mean;
+mod measured;
 mod powers;
 mod regions;
 mod sampled;
@@ -25,5 +26,5 @@ mod table;
 mod table1;
 mod traffic;
 
-pub use derivation::{Asked, Derivation, Derived, VerdictError, derivations};
+pub use derivation::{Asked, Derivation, Derived, derivations};
 pub use table::Table;

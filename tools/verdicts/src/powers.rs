@@ -1,6 +1,7 @@
 //! Photons with random powers, to import.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::{Asked, Derivation, Derived};
+use pm_report::ReportError;
 use pm_sweep::significant;
 use std::fmt::Write as _;
 
@@ -25,7 +26,7 @@ impl ParkMiller {
     }
 }
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let photons = asked.setting("photons")?.unwrap_or(1_000_000);
     let mut random = ParkMiller(20_051);
     let mut text = "x,y,z,power_r,power_g,power_b\n".to_owned();

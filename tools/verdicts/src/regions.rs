@@ -1,6 +1,7 @@
 //! The rectangles of a picture that something is known of.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::{Asked, Derivation, Derived, accuracy};
+use pm_report::ReportError;
 
 /// The rectangles of an experiment's picture that something is known of, as options of pm-view.
 pub(crate) const REGIONS: Derivation = Derivation {
@@ -10,9 +11,8 @@ pub(crate) const REGIONS: Derivation = Derivation {
     derive,
 };
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let experiment: String = asked.needed("experiment")?;
-    let known = asked.table(0)?.rows().filter(|row| row.text("experiment") == experiment);
-    let parts = known.flat_map(|row| row.text("part").split(" - ").map(|part| part.replace(' ', ",")));
-    Ok(parts.map(|part| format!("--mean {part}\n")).collect::<String>().into())
+    let rectangles = accuracy::rectangles(asked.table(0)?, &experiment)?;
+    Ok(rectangles.iter().map(|rectangle| format!("--mean {rectangle}\n")).collect::<String>().into())
 }

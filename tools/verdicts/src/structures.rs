@@ -1,6 +1,9 @@
 //! Every map under every order.
 
-use crate::{Asked, Derivation, Derived, Table, VerdictError};
+use crate::table::Row;
+use crate::{Asked, Derivation, Derived, Table};
+use pm_report::ReportError;
+use pm_sweep::significant;
 use std::fmt::Write as _;
 
 /// The paper's Table 1 from the joined rows of structures.csv, at lines of 128 bytes: in fetches and bytes per query and in
@@ -19,7 +22,7 @@ The paper, fetches per block: naive 23,045 kd, 11,755 kdB, 73,523 block hashing;
 20,316; with hash 2,590, 2,870, 9,912; tiled Hilbert 1,215, 1,134, 2,350; Hilbert 1.6, 1.8, 3.1.
 ";
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let table = asked.table(0)?;
     let share: u64 = asked.needed("share")?;
     let mut text = format!(
@@ -36,17 +39,20 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
         ),
     ];
     for (title, column, orders) in parts {
-        let _ = writeln!(text, "{title}\n{}", part(table, column, &ORDERS[..orders]));
+        let _ = writeln!(text, "{title}\n{}", part(table, column, &ORDERS[..orders])?);
     }
     Ok((text + PAPER).into())
 }
 
-fn part(table: &Table, column: &str, orders: &[&str]) -> String {
-    let at_128 = || table.rows().filter(|row| row.number("line") == 128.0);
+fn part(table: &Table, column: &str, orders: &[&str]) -> Result<String, ReportError> {
+    let mut at_128 = vec![];
     let mut maps: Vec<&str> = vec![];
-    for row in at_128() {
-        if !maps.contains(&row.text("map")) {
-            maps.push(row.text("map"));
+    for row in table.rows() {
+        if row.number("line")? == 128.0 {
+            at_128.push((row.text("map")?, row.text("order")?, row));
+            if !maps.contains(&row.text("map")?) {
+                maps.push(row.text("map")?);
+            }
         }
     }
     let line = |name: &str, cells: Vec<String>| {
@@ -56,21 +62,21 @@ fn part(table: &Table, column: &str, orders: &[&str]) -> String {
     let mut text = line("map", orders.iter().map(|&order| order.to_owned()).collect());
     for map in maps {
         let cell = |order: &&str| {
-            let row = at_128().filter(|row| row.text("map") == map && row.text("order") == *order).last();
-            row.map_or("-".to_owned(), |row| told(row.number(column), half(row)))
+            let row = at_128.iter().rev().find(|(of_map, of_order, _)| (of_map, of_order) == (&map, order));
+            row.map_or(Ok("-".to_owned()), |(_, _, row)| Ok(told(row.number(column)?, half(*row)?)))
         };
-        text += &line(map, orders.iter().map(cell).collect());
+        text += &line(map, orders.iter().map(cell).collect::<Result<Vec<_>, ReportError>>()?);
     }
-    text
+    Ok(text)
 }
 
 /// Half the width of the interval of fetches per query, in percent.
-fn half(row: crate::table::Row<'_>) -> f64 {
-    let fetches = row.number("fetches_per_query");
-    if fetches > 0.0 { 100.0 * row.number("fetches_per_query_error") / fetches } else { 0.0 }
+fn half(row: Row<'_>) -> Result<f64, ReportError> {
+    let fetches = row.number("fetches_per_query")?;
+    Ok(if fetches > 0.0 { 100.0 * row.number("fetches_per_query_error")? / fetches } else { 0.0 })
 }
 
 fn told(value: f64, half: f64) -> String {
-    let value = if value < 1000.0 { pm_sweep::significant(value, 4) } else { format!("{value:.0}") };
+    let value = if value < 1000.0 { significant(value, 4) } else { format!("{value:.0}") };
     if half > 0.0 { format!("{value} +-{half:.1}%") } else { value }
 }

@@ -1,81 +1,125 @@
-//! Rows under names, as other programs print them.
+//! Tables as derivations read and write them: cells by the names of their columns.
 
-use crate::VerdictError;
-use crate::derivation::fail;
-use std::collections::HashMap;
+use pm_report::sheet::{Sheet, number};
+use pm_report::{Column, ReportError, TableFormat, Value};
+use std::path::Path;
 
-/// A table, and what its file is called.
-#[derive(Clone, Debug, Default)]
+/// A table, and the text it was read from.
+#[derive(Clone, Debug)]
 pub struct Table {
-    /// The file's name, as it was given.
-    pub file: String,
-    /// The text it was read from.
-    pub text: String,
-    names: HashMap<String, usize>,
-    rows: Vec<Vec<String>>,
+    sheet: Sheet,
+    text: String,
 }
 
 /// A row of a table.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<'a> {
-    table: &'a Table,
-    cells: &'a [String],
+    sheet: &'a Sheet,
+    at: usize,
 }
 
 impl Table {
-    /// Reads CSV, or cells between tabs; lines that begin with `#` are remarks. An empty text has no names and no rows.
+    /// Reads CSV, or cells between tabs, as programs print them; lines that begin with `#` are remarks. An empty text has no
+    /// columns and no rows.
     ///
     /// # Errors
     /// If it is no such text.
-    pub fn read(file: &str, text: String) -> Result<Self, VerdictError> {
-        let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-        let delimiter = if first.contains('\t') { b'\t' } else { b',' };
-        let mut reader = csv::ReaderBuilder::new();
-        reader.has_headers(false).flexible(true).comment(Some(b'#')).delimiter(delimiter);
-        let mut rows = vec![];
-        for record in reader.from_reader(text.as_bytes()).records() {
-            match record {
-                Ok(record) => rows.push(record.iter().map(str::to_owned).collect::<Vec<_>>()),
-                Err(error) => return fail(format!("{file}: {error}")),
-            }
-        }
-        let names = if rows.is_empty() { vec![] } else { rows.remove(0) };
-        let names = names.into_iter().enumerate().map(|(at, name)| (name, at)).collect();
-        Ok(Self { file: file.to_owned(), text, names, rows })
+    pub fn read(file: &str, text: String) -> Result<Self, ReportError> {
+        Ok(Self { sheet: Sheet::parse_with_remarks(file, text.as_bytes())?, text })
+    }
+
+    /// The text it was read from.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The table as others know it.
+    pub(crate) const fn sheet(&self) -> &Sheet {
+        &self.sheet
     }
 
     /// The name of its file without folder and ending.
     pub(crate) fn stem(&self) -> &str {
-        let name = self.file.rsplit('/').next().unwrap_or(&self.file);
-        name.strip_suffix(".csv").unwrap_or(name)
+        Path::new(self.sheet.name()).file_stem().and_then(|stem| stem.to_str()).unwrap_or_default()
     }
 
-    pub(crate) fn has(&self, name: &str) -> bool {
-        self.names.contains_key(name)
-    }
-
-    pub(crate) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter().map(|cells| Row { table: self, cells })
+    pub(crate) fn rows(&self) -> impl DoubleEndedIterator<Item = Row<'_>> {
+        (0..self.sheet.rows().len()).map(|at| Row { sheet: &self.sheet, at })
     }
 }
 
 impl<'a> Row<'a> {
-    /// A cell; nothing where there is no such column.
-    pub(crate) fn text(self, name: &str) -> &'a str {
-        self.table.names.get(name).and_then(|&at| self.cells.get(at)).map_or("", String::as_str)
+    /// A cell.
+    ///
+    /// # Errors
+    /// If there is no such column.
+    pub(crate) fn text(self, name: &str) -> Result<&'a str, ReportError> {
+        Ok(&self.sheet.rows()[self.at][self.sheet.column(name)?])
     }
 
-    /// A cell as a number; 0 where it is none.
-    pub(crate) fn number(self, name: &str) -> f64 {
-        self.text(name).trim().parse().unwrap_or(0.0)
+    /// A cell of a column that the table need not have; none, if it is empty.
+    pub(crate) fn if_any(self, name: &str) -> Option<&'a str> {
+        let cell = &self.sheet.rows()[self.at][self.sheet.find(name)?];
+        (!cell.is_empty()).then_some(cell)
     }
 
-    pub(crate) fn has(self, name: &str) -> bool {
-        self.table.has(name)
+    /// A cell as a number; 0 where it is empty, since what was not measured is nothing.
+    ///
+    /// # Errors
+    /// If there is no such column, or another word stands there.
+    pub(crate) fn number(self, name: &str) -> Result<f64, ReportError> {
+        match self.text(name)? {
+            "" => Ok(0.0),
+            text => number(text).ok_or_else(|| self.wrong(format!("`{text}` in column {name} is not a number"))),
+        }
+    }
+
+    /// An error about this row.
+    pub(crate) fn wrong(self, what: impl std::fmt::Display) -> ReportError {
+        ReportError::read(format!("{}, line {}: {what}", self.sheet.name(), self.sheet.line(self.at)))
     }
 }
 
-/// A cell as a line of CSV has it.
-pub(crate) fn quoted(text: &str) -> String {
-    if text.contains(['"', ',']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+/// Rows of cells as CSV, under these names.
+pub(crate) fn csv<const N: usize>(names: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let mut table = pm_report::Table::new(names.map(Column::text).to_vec());
+    rows.into_iter().for_each(|row| table.push(row.map(Value::Text).to_vec()));
+    let mut csv = vec![];
+    table.write(TableFormat::Csv, &mut csv).expect("memory takes all that is written");
+    String::from_utf8(csv).expect("it is made of text")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Table {
+        Table::read("out/t.csv", text.to_owned()).unwrap()
+    }
+
+    #[test]
+    fn cells_are_found_by_the_names_of_their_columns() {
+        for text in ["# remark\nname,n\na,1.5\n\"b, c\",\n", "name\tn\na\t1.5\nb, c\t\n"] {
+            let table = table(text);
+            let rows: Vec<Row<'_>> = table.rows().collect();
+            assert_eq!((table.stem(), rows.len()), ("t", 2));
+            assert_eq!((rows[0].text("name").unwrap(), rows[0].number("n").unwrap()), ("a", 1.5));
+            assert_eq!((rows[1].text("name").unwrap(), rows[1].number("n").unwrap()), ("b, c", 0.0));
+            assert_eq!((rows[0].if_any("n"), rows[1].if_any("n"), rows[0].if_any("m")), (Some("1.5"), None, None));
+        }
+        assert_eq!(table("").rows().count(), 0);
+    }
+
+    #[test]
+    fn what_is_not_there_or_no_number_is_said() {
+        let table = table("name,n\na,1\nb,many\n");
+        let row = table.rows().last().unwrap();
+        assert_eq!(row.number("n").unwrap_err().to_string(), "out/t.csv, line 3: `many` in column n is not a number");
+        assert_eq!(row.number("m").unwrap_err().to_string(), "out/t.csv: there is no column `m`; there are name, n");
+    }
+
+    #[test]
+    fn cells_are_quoted_where_they_must_be() {
+        assert_eq!(csv(["a", "b"], [["1, \"2\"".to_owned(), String::new()]]), "a,b\n\"1, \"\"2\"\"\",\n");
+    }
 }

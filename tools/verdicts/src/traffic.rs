@@ -1,6 +1,8 @@
 //! All traffic of the orders.
 
-use crate::{Asked, Derivation, Derived, VerdictError};
+use crate::table::Row;
+use crate::{Asked, Derivation, Derived, Table};
+use pm_report::ReportError;
 use std::fmt::Write as _;
 
 /// All traffic of the orders, with the paper's cache of 128 KiB.
@@ -11,14 +13,25 @@ pub(crate) const TRAFFIC: Derivation = Derivation {
     derive,
 };
 
-/// The paper's cache.
-pub(crate) const PAPER_CACHE: f64 = 131_072.0;
+/// Bytes of the paper's cache.
+const PAPER_CACHE: f64 = 131_072.0;
 
-fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
+/// The rows of the paper's cache.
+pub(crate) fn of_papers_cache(table: &Table) -> Result<Vec<Row<'_>>, ReportError> {
+    let mut rows = vec![];
+    for row in table.rows() {
+        if row.number("cache_bytes")? == PAPER_CACHE {
+            rows.push(row);
+        }
+    }
+    Ok(rows)
+}
+
+fn derive(asked: &Asked<'_>) -> Result<Derived, ReportError> {
     let mut text = String::new();
     let mut first = None;
-    for row in asked.table(0)?.rows().filter(|row| row.number("cache_bytes") == PAPER_CACHE) {
-        let total = row.number("total_bytes");
+    for row in of_papers_cache(asked.table(0)?)? {
+        let total = row.number("total_bytes")?;
         if first.is_none() {
             let heads = ["", "order, MB", "", "queries,", "", "", "share of"];
             let names = ["order", "on chip", "map, GB", "GB", "results, GB", "total, GB", "scanline"];
@@ -31,11 +44,11 @@ fn derive(asked: &Asked<'_>) -> Result<Derived, VerdictError> {
         let _ = writeln!(
             text,
             "{:<18} {:>11.3} {:>11.3} {:>11.3} {:>11.3} {:>11.3} {:>9}",
-            row.text("point"),
-            row.number("order_bytes_on_chip") / 1e6,
-            (row.number("bytes_fetched") + row.number("bytes_written_back")) / 1e9,
-            row.number("query_bytes") / 1e9,
-            row.number("result_bytes") / 1e9,
+            row.text("point")?,
+            row.number("order_bytes_on_chip")? / 1e6,
+            (row.number("bytes_fetched")? + row.number("bytes_written_back")?) / 1e9,
+            row.number("query_bytes")? / 1e9,
+            row.number("result_bytes")? / 1e9,
             total / 1e9,
             share(total, first)
         );

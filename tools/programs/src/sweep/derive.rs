@@ -2,6 +2,7 @@
 
 use crate::cli::{create_output, usage};
 use anyhow::{Context as _, bail};
+use pm_report::sheet::Sheets;
 use pm_verdicts::{Asked, Table, derivations};
 use std::collections::BTreeMap;
 use std::io::{Read as _, Write as _};
@@ -48,9 +49,8 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         settings.insert(name.to_owned(), value.to_owned());
     }
     let tables = args.tables.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
-    let look_up = |file: &str| read(&PathBuf::from(file)).ok();
-    let derived = (derivation.derive)(&Asked { tables: &tables, settings: &settings, look_up: &look_up })
-        .with_context(|| what.to_owned())?;
+    let asked = Asked { tables: &tables, settings: &settings, results: &Sheets::default() };
+    let derived = (derivation.derive)(&asked).with_context(|| what.to_owned())?;
     // A judgement is shown, whatever it says; but it makes no file of what does not hold.
     output.write_all(derived.text.as_bytes())?;
     let Some(fault) = derived.fault else { return output.commit() };
@@ -64,7 +64,8 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
 pub(super) fn files_of_claims(claims: &PathBuf) -> anyhow::Result<Vec<String>> {
     let derivation = derivations().find("claims").map_err(|error| usage(error.to_string()))?;
     let settings = BTreeMap::from([("list".to_owned(), String::new())]);
-    let listed = (derivation.derive)(&Asked { tables: &[read(claims)?], settings: &settings, look_up: &|_| None })?;
+    let asked = Asked { tables: &[read(claims)?], settings: &settings, results: &Sheets::default() };
+    let listed = (derivation.derive)(&asked)?;
     Ok(listed.text.lines().map(str::to_owned).collect())
 }
 

@@ -111,7 +111,7 @@ fn read_table(
     let only = only.collect::<Result<Vec<_>, ReportError>>()?;
 
     for (at, row) in sheet.rows().iter().enumerate() {
-        let fits = |wanted: usize| only.iter().any(|&(column, value)| column == wanted && row[column] == *value);
+        let fits = |wanted: usize| only.iter().any(|&(column, value)| column == wanted && row[column] == **value);
         if row[x].is_empty() || row[y].is_empty() || !only.iter().all(|&(column, _)| fits(column)) {
             continue;
         }
@@ -119,10 +119,10 @@ fn read_table(
         let name = |column: usize| &sheet.columns()[column];
         let value =
             |column: usize| number(&row[column]).ok_or_else(|| wrong(sheet.name(), line, &row[column], name(column)));
-        let series = by.iter().map(|&column| &*row[column]).filter(|part| !part.is_empty()).collect::<Vec<_>>();
+        let series = by.iter().map(|&column| &row[column]).filter(|part| !part.is_empty()).collect::<Vec<_>>();
         rows.push(Row {
             series: if series.is_empty() { stem(sheet.name()) } else { series.join(", ") },
-            x: row[x].clone(),
+            x: row[x].to_owned(),
             y: value(y)?,
             error: error.filter(|&column| !row[column].is_empty()).map(value).transpose()?,
             table,

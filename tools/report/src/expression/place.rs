@@ -24,7 +24,7 @@ impl Place {
     /// What stands in another column of its row, if there is one of this name.
     #[must_use]
     pub fn beside(&self, column: &str) -> Option<&str> {
-        self.sheet.find(column).map(|at| &*self.sheet.rows()[self.row][at])
+        self.sheet.find(column).map(|at| &self.sheet.rows()[self.row][at])
     }
 
     /// The name of its column.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// The rows that have the values asked for; what they do not agree in cannot be asked of them.
 #[derive(Debug)]
-pub(crate) struct Row {
+pub(super) struct Row {
     /// As it was asked for.
     asked: String,
     /// The same in words: ` with order=scanline, ways=1`.
@@ -22,12 +22,12 @@ pub(crate) struct Row {
 }
 
 /// The values that columns are to have.
-pub(crate) fn conditions(chosen: &Kwargs) -> Result<Vec<(String, Value)>, minijinja::Error> {
+pub(super) fn conditions(chosen: &Kwargs) -> Result<Vec<(String, Value)>, minijinja::Error> {
     chosen.args().map(|name| Ok((name.to_owned(), chosen.get(name)?))).collect()
 }
 
 /// Whether a field is this value: the same number, or the same word.
-pub(crate) fn is(field: &str, value: &Value) -> bool {
+fn is(field: &str, value: &Value) -> bool {
     match f64::try_from(value.clone()).ok().filter(|_| value.is_number()) {
         Some(wanted) => number(field) == Some(wanted),
         None => value.as_str() == Some(field),
@@ -35,7 +35,7 @@ pub(crate) fn is(field: &str, value: &Value) -> bool {
 }
 
 /// A field as expressions know it: a whole number, a number, or a word.
-pub(crate) fn cell(field: &str) -> Value {
+fn cell(field: &str) -> Value {
     match (field.parse::<i64>(), number(field)) {
         (Ok(whole), _) => Value::from(whole),
         (_, Some(number)) => Value::from(number),

@@ -29,8 +29,8 @@ fn histories(sheet: &Sheet) -> Vec<String> {
     let Some(column) = sheet.find(HISTORY) else { return vec![] };
     let mut histories = vec![];
     for row in &sheet.rows {
-        if !row[column].is_empty() && !histories.contains(&row[column]) {
-            histories.push(row[column].clone());
+        if !row[column].is_empty() && !histories.iter().any(|history| *history == row[column]) {
+            histories.push(row[column].to_owned());
         }
     }
     histories

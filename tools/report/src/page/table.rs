@@ -6,6 +6,7 @@ use super::below::{self, HISTORY};
 use super::{Join, TableBlock};
 use crate::ReportError;
 use crate::sheet::{Sheet, Sheets};
+use csv::StringRecord;
 use minijinja::{Value, context};
 
 /// What the template of a table needs; `title` is text, `text` HTML.
@@ -20,7 +21,7 @@ pub(super) fn block(
 ) -> Result<Value, ReportError> {
     let sheet = rows(block, sheets)?;
     let columns = columns::shown(block, &sheet)?;
-    let fields = |row: &Vec<String>| columns.iter().map(|column| column.field(row, &sheet)).collect();
+    let fields = |row: &StringRecord| columns.iter().map(|column| column.field(row, &sheet)).collect();
     let rows = sheet.rows.iter().map(fields).collect::<Result<Vec<Vec<String>>, ReportError>>()?;
     let all: Vec<usize> = (0..sheet.columns.len()).filter(|&at| sheet.columns[at] != HISTORY).collect();
     Ok(context! {
@@ -65,7 +66,7 @@ fn look_up(sheet: &mut Sheet, join: &Join, sheets: &Sheets) -> Result<(), Report
         let mut fits = other.rows.iter().filter(|theirs| pairs.iter().all(|&(a, b)| row[a] == theirs[b]));
         let first = fits.next();
         if first.is_some() && fits.next().is_some() {
-            let values: Vec<&str> = pairs.iter().map(|&(a, _)| &*row[a]).collect();
+            let values: Vec<&str> = pairs.iter().map(|&(a, _)| &row[a]).collect();
             return Err(ReportError::asked(format!(
                 "{} has several rows with `{}` in {}; join on more columns",
                 join.table,
@@ -76,7 +77,7 @@ fn look_up(sheet: &mut Sheet, join: &Join, sheets: &Sheets) -> Result<(), Report
         matches.push(first);
     }
     for (at, column) in other.columns.iter().enumerate() {
-        let fields = matches.iter().map(|row| row.map_or(String::new(), |row| row[at].clone())).collect();
+        let fields = matches.iter().map(|row| row.map_or(String::new(), |row| row[at].to_owned())).collect();
         sheet.add_column(&format!("{}.{column}", join.name), fields);
     }
     Ok(())

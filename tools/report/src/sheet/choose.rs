@@ -2,6 +2,7 @@
 
 use super::{Sheet, number};
 use crate::ReportError;
+use csv::StringRecord;
 use serde::Deserialize;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -39,7 +40,7 @@ impl Sheet {
             if let Some(value) = lost {
                 return Err(ReportError::asked(format!("{}: no row is left with `{value}` in {column}", self.name)));
             }
-            self.retain(|row| values.all().contains(&row[at]));
+            self.retain(|row| values.all().iter().any(|value| *value == row[at]));
         }
         Ok(())
     }
@@ -48,14 +49,14 @@ impl Sheet {
     pub(crate) fn keep_what_fits(&mut self, only: &BTreeMap<String, Values>) {
         for (column, values) in only {
             if let Some(at) = self.find(column) {
-                self.retain(|row| values.all().contains(&row[at]));
+                self.retain(|row| values.all().iter().any(|value| *value == row[at]));
             }
         }
     }
 
     /// Keeps rows, and their lines.
-    pub(crate) fn retain(&mut self, mut keep: impl FnMut(&[String]) -> bool) {
-        let kept: Vec<bool> = self.rows.iter().map(|row| keep(row)).collect();
+    pub(crate) fn retain(&mut self, keep: impl FnMut(&StringRecord) -> bool) {
+        let kept: Vec<bool> = self.rows.iter().map(keep).collect();
         let (mut of_rows, mut of_lines) = (kept.iter(), kept.iter());
         self.rows.retain(|_| of_rows.next() == Some(&true));
         self.lines.retain(|_| of_lines.next() == Some(&true));
@@ -99,7 +100,7 @@ mod tests {
     }
 
     fn rows(sheet: &Sheet) -> Vec<String> {
-        sheet.rows.iter().map(|row| row.join(" ")).collect()
+        sheet.rows.iter().map(|row| row.iter().collect::<Vec<_>>().join(" ")).collect()
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::ReportError;
 use crate::page::below::{FOUND, HISTORY};
 use crate::page::{NumberFormat, Shown, ShownColumn, TableBlock};
 use crate::sheet::{Sheet, number};
+use csv::StringRecord;
 use minijinja::{Value, context};
 
 /// A column that is shown: how its fields are found and written.
@@ -81,7 +82,7 @@ impl Column {
     ///
     /// # Errors
     /// If half the width of an interval is not a number.
-    pub(super) fn field(&self, row: &[String], sheet: &Sheet) -> Result<String, ReportError> {
+    pub(super) fn field(&self, row: &StringRecord, sheet: &Sheet) -> Result<String, ReportError> {
         let write = |value: f64| self.format.map_or_else(|| value.to_string(), |format| format.write(value));
         let at = match self.content {
             Content::Field(at) => at,
@@ -97,7 +98,7 @@ impl Column {
         let mut text = match (self.format, number(field)) {
             (Some(_), Some(value)) => write(value),
             // As it is: a number without a format, or a word, such as `full` among numbers of ways.
-            _ => field.clone(),
+            _ => field.to_owned(),
         };
         if let Some(error) = self.error.map(|at| &row[at]).filter(|error| !error.is_empty()) {
             let half = number(error).ok_or_else(|| {
