@@ -57,10 +57,10 @@ mod tests {
 
     #[test]
     fn samples_become_the_whole() {
-        let text = "a,b\nx,sampled,--size 90x90 --only-tiles 32 --warm-up {setting} || pm-sample -q --every 5 --window 2 --warm-up 1 | pm-reorder,1/64,\n";
+        let text = "a,b,c,d,e\nx,sampled,--size 90x90 --only-tiles 32 --warm-up {setting} || pm-sample -q --every 5 --window 2 --warm-up 1 | pm-reorder,1/64,\n";
         assert_eq!(
             derived(&EXACT, &[("scripts/sweeps/table1.csv", text)], &[]).unwrap().text,
-            "a,b\nx,full,--size 512x512 | pm-reorder,1,\n"
+            "a,b,c,d,e\nx,full,--size 512x512 | pm-reorder,1,\n"
         );
     }
 }
