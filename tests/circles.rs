@@ -135,6 +135,14 @@ impl Crate {
     }
 }
 
+/// Those among children alone, where children and their parent may know one another.
+fn among_children(
+    mut all: BTreeMap<Module, BTreeSet<(String, String)>>,
+) -> BTreeMap<Module, BTreeSet<(String, String)>> {
+    all.values_mut().for_each(|known| known.retain(|(knows, known)| !knows.is_empty() && !known.is_empty()));
+    all
+}
+
 /// A circle among these, if there is one.
 fn circle(acquaintances: &BTreeSet<(String, String)>) -> Option<Vec<&str>> {
     let mut left: BTreeSet<(&str, &str)> = acquaintances.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();

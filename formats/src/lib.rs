@@ -30,6 +30,7 @@ mod digest;
 mod error;
 mod history;
 mod record;
+mod region;
 mod stream;
 pub mod trace;
 pub mod vocabulary;

@@ -6,15 +6,14 @@ mod decode;
 mod encode;
 mod heap_walk;
 mod reader;
-mod region;
 mod varint;
 mod writer;
 
+pub use crate::region::{Coding, REGION_ALIGNMENT, Region, lay_out};
 pub use access::{Access, AccessKind, TraceSink};
 pub use decode::decode_searches;
 pub use encode::BlockEncoder;
 pub use reader::TraceReader;
-pub use region::{Coding, REGION_ALIGNMENT, Region, lay_out};
 pub use writer::TraceWriter;
 
 #[cfg(test)]

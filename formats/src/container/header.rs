@@ -1,7 +1,7 @@
 //! The header: what a stream is about and where it came from.
 
 use crate::history::Step;
-use crate::trace::Region;
+use crate::region::Region;
 use serde::{Deserialize, Serialize};
 
 /// An axis-aligned box in scene units. An empty box has `min > max`.

@@ -3,10 +3,10 @@
 use super::access::{Access, AccessKind, TraceSink};
 use super::bits::BitReader;
 use super::heap_walk;
-use super::region::{Coding, Region};
 use super::varint::{take, unzigzag};
 use crate::container::{Block, Section};
 use crate::digest::Tally;
+use crate::region::{Coding, Region};
 
 /// Replays the searches of a block; `None` if it does not hold what it says. What was replayed before the fault was
 /// found is then worthless.

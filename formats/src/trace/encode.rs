@@ -3,11 +3,11 @@
 use super::access::{Access, AccessKind};
 use super::bits::BitWriter;
 use super::heap_walk;
-use super::region::{Coding, Region};
 use super::varint::{push, zigzag};
 use crate::container::{Block, BlockMeta};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
+use crate::region::{Coding, Region};
 
 /// zstd level of trace blocks: decision bits gain a third at level 3 and little beyond.
 const LEVEL: i32 = 3;

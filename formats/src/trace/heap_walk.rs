@@ -6,11 +6,10 @@
 //! nothing else of the tree: not what is stored in it, not why a search went where it went.
 
 use super::bits::{BitReader, BitWriter};
+use crate::region::MAX_NODES;
 
 /// Depth of the deepest tree that can be walked: node numbers stay below 2^31.
 const MAX_DEPTH: usize = 32;
-/// Most nodes of a tree.
-pub(crate) const MAX_NODES: u32 = (1 << 31) - 1;
 
 /// Codes the walk that `visited` (node numbers minus one, in the order of the visits) begins with. Returns how many
 /// visits it has, or `None`, and no bits, if they are no depth-first walk from the root.

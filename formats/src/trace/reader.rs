@@ -2,10 +2,10 @@
 
 use super::access::TraceSink;
 use super::decode::decode_searches;
-use super::region::check_regions;
 use crate::container::{BlockMeta, BlockReader, End, Header, StreamKind};
 use crate::digest::Tally;
 use crate::error::Result;
+use crate::region::check_regions;
 use std::io::Read;
 
 /// Reads a trace and replays it into a [`TraceSink`].

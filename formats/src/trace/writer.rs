@@ -1,9 +1,9 @@
 //! Traces, written a block at a time.
 
-use super::region::check_regions;
 use crate::container::{Block, BlockWriter, End, Header, StageReport, StreamKind};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
+use crate::region::check_regions;
 use std::io::Write;
 
 /// Writes a trace; the blocks come from [`BlockEncoder`](super::BlockEncoder).

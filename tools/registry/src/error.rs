@@ -1,6 +1,5 @@
 //! Why a question to an entry of a registry makes no sense.
 
-use crate::UnknownWord;
 use std::fmt;
 
 /// Why parameters cannot be given as they are.
@@ -62,6 +61,23 @@ impl fmt::Display for ParameterError {
 }
 
 impl std::error::Error for ParameterError {}
+
+/// There is no such word.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownWord {
+    pub(crate) what: &'static str,
+    pub(crate) word: String,
+    pub(crate) words: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownWord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, word, words } = self;
+        write!(f, "`{word}` is no {what}: there are {}", words.join(", "))
+    }
+}
+
+impl std::error::Error for UnknownWord {}
 
 /// Why a line chooses no entry.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -41,13 +41,15 @@ mod parameter;
 mod registered;
 mod registry;
 mod shared;
+mod value;
 mod values;
 
 pub use choice::{Choice, Named};
 pub use chosen::Chosen;
-pub use error::{ChoiceError, ParameterError};
+pub use error::{ChoiceError, ParameterError, UnknownWord};
 pub use parameter::{Domain, Parameter, Word, words_of};
 pub use registered::Registered;
-pub use registry::{Registry, UnknownWord};
+pub use registry::Registry;
 pub use shared::Shared;
-pub use values::{Value, Values};
+pub use value::Value;
+pub use values::Values;

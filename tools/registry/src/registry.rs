@@ -1,7 +1,6 @@
 //! Open sets of words.
 
-use crate::{ChoiceError, Chosen, Parameter, ParameterError, Registered, Shared, Values};
-use std::fmt;
+use crate::{ChoiceError, Chosen, Parameter, ParameterError, Registered, Shared, UnknownWord, Values};
 
 /// Things that can be chosen by their words, in the order in which they are listed.
 pub struct Registry<T: ?Sized + 'static> {
@@ -17,23 +16,6 @@ impl<T: ?Sized> Clone for Registry<T> {
         Self { what: self.what, entries: self.entries.clone(), common: self.common }
     }
 }
-
-/// There is no such word.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownWord {
-    what: &'static str,
-    word: String,
-    words: Vec<&'static str>,
-}
-
-impl fmt::Display for UnknownWord {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, word, words } = self;
-        write!(f, "`{word}` is no {what}: there are {}", words.join(", "))
-    }
-}
-
-impl std::error::Error for UnknownWord {}
 
 impl<T: Registered + ?Sized> Registry<T> {
     /// These things, each of which is a `what`.

@@ -8,6 +8,7 @@ mod axis;
 mod colours;
 mod draw;
 mod frontier;
+mod look;
 mod read;
 mod selection;
 mod svg;
@@ -15,8 +16,8 @@ mod svg;
 pub use axis::{Axis, Scale};
 pub use colours::dark_style;
 pub use frontier::unbeaten;
+pub use look::Look;
 pub use selection::Selection;
-pub use svg::Look;
 
 /// A point of a series, in the units of the axes; on an axis of words, the number of the word.
 #[derive(Clone, Copy, Debug, PartialEq)]

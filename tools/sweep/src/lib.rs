@@ -22,13 +22,14 @@ mod table;
 mod template;
 pub mod until;
 mod words;
+mod work;
 
 pub use error::{SweepError, TableError};
 pub use number::significant;
-pub use pipe::Stream;
 pub use place::placed;
-pub use point::{Point, Work};
+pub use point::Point;
 pub use stage::Stage;
 pub use sweep::Sweep;
 pub use table::{Column, Line, Table};
 pub use words::Words;
+pub use work::{Stream, Work};

@@ -3,19 +3,8 @@
 use crate::make::escaped;
 use crate::names::{misread_in_prerequisite, slug};
 use crate::stage::{OUT, PHOTONS, QUERIES};
-use crate::{Stage, Work};
+use crate::{Stage, Stream, Work};
 use std::collections::BTreeMap;
-
-/// A stream that points have in common: make runs its command with `-o FILE` behind it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stream {
-    /// Its file.
-    pub file: String,
-    /// Files that must be there first.
-    pub needs: Vec<String>,
-    /// What makes it, as make reads it.
-    pub command: String,
-}
 
 /// Where what points have in common lies.
 const STREAMS: &str = "out/streams";

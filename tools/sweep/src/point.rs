@@ -2,21 +2,10 @@
 
 use crate::line::Given;
 use crate::names::{misread_in_target, stays_below};
-use crate::pipe::{Stream, Texts, with, work};
+use crate::pipe::{Texts, with, work};
 use crate::stage::{OUT, PHOTONS, QUERIES};
 use crate::words::Meaning;
-use crate::{Stage, Words};
-
-/// What a point runs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Work {
-    /// Streams that are made first, each behind those that it needs.
-    pub streams: Vec<Stream>,
-    /// Files that must be there first.
-    pub needs: Vec<String>,
-    /// What prints the row, as make reads it.
-    pub command: String,
-}
+use crate::{Stage, Words, Work};
 
 /// A point of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
-//! What a derivation is, and which there are.
+//! What a derivation is.
 
 use crate::Table;
-use pm_registry::{Registered, Registry};
+use pm_registry::Registered;
 use pm_report::ReportError;
 use pm_report::sheet::Sheets;
 use std::collections::BTreeMap;
@@ -58,35 +58,6 @@ impl Registered for Derivation {
     fn help(&self) -> &'static str {
         self.help
     }
-}
-
-/// All derivations.
-#[must_use]
-pub fn derivations() -> Registry<Derivation> {
-    Registry::new(
-        "derivation",
-        &[
-            &crate::accuracy::ACCURACY,
-            &crate::batches::BATCHES,
-            &crate::budget::BUDGET,
-            &crate::cheapest::CHEAPEST,
-            &crate::claims::CLAIMS,
-            &crate::compare::COMPARE,
-            &crate::coverage::COVERAGE,
-            &crate::exact::EXACT,
-            &crate::flux::FLUX,
-            &crate::frontier::FRONTIER,
-            &crate::lattice::LATTICE,
-            &crate::least::LEAST,
-            &crate::mean::MEAN,
-            &crate::powers::POWERS,
-            &crate::regions::REGIONS,
-            &crate::sampled::SAMPLED,
-            &crate::structures::STRUCTURES,
-            &crate::table1::TABLE_1,
-            &crate::traffic::TRAFFIC,
-        ],
-    )
 }
 
 impl Asked<'_> {

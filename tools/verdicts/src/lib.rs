@@ -20,11 +20,13 @@ mod mean;
 mod measured;
 mod powers;
 mod regions;
+mod registry;
 mod sampled;
 mod structures;
 mod table;
 mod table1;
 mod traffic;
 
-pub use derivation::{Asked, Derivation, Derived, derivations};
+pub use derivation::{Asked, Derivation, Derived};
+pub use registry::derivations;
 pub use table::Table;

@@ -1,9 +1,8 @@
 //! A foreign trace, read to its end and ready to be replayed.
 
 use super::entries::Entries;
-use super::open::{Reading, References};
 use super::pages::Pages;
-use super::{AssumedSize, EntryKind, TraceImport};
+use super::{AssumedSize, EntryKind, Reading, References, TraceImport};
 use anyhow::Context as _;
 use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
 use pm_spool::{Event, Spool};

@@ -1,24 +1,9 @@
 //! A plot as SVG: a picture of its own, or a part of a page.
 
-use super::Plot;
 use super::colours::{GREY, INK, dark_style, of_series};
 use super::draw::{Area, Drawn, draw_key, own};
+use super::{Look, Plot};
 use plotters::prelude::*;
-
-/// How a plot looks.
-#[derive(Clone, Debug)]
-pub struct Look {
-    /// What stands above it; may be empty.
-    pub title: String,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-    /// Are points joined by lines?
-    pub lines: bool,
-    /// Is the frontier drawn, as steps?
-    pub frontier: bool,
-    /// Is there a legend beside it?
-    pub legend: bool,
-}
 
 /// Width and height of a key of the legend in pixels.
 const KEY: (u32, u32) = (28, 14);

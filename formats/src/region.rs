@@ -1,6 +1,5 @@
 //! Regions of the traced memory.
 
-use super::heap_walk::MAX_NODES;
 use serde::{Deserialize, Serialize};
 
 /// How the accesses of a region are coded in a trace; says nothing about what they mean.
@@ -51,8 +50,11 @@ pub fn lay_out(regions: impl IntoIterator<Item = (String, u64, u32, Coding)>) ->
         .collect()
 }
 
+/// Most nodes of a tree.
+pub(crate) const MAX_NODES: u32 = (1 << 31) - 1;
+
 /// Regions must lie apart, each on pages of its own, and be as large as their coding needs.
-pub(super) fn check_regions(regions: &[Region]) -> std::result::Result<(), &'static str> {
+pub(crate) fn check_regions(regions: &[Region]) -> std::result::Result<(), &'static str> {
     if regions.len() > usize::from(u16::MAX) {
         return Err("a trace of more than 65,535 regions");
     }
