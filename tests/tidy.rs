@@ -111,7 +111,7 @@ fn dependencies(manifest: &str) -> BTreeSet<String> {
 }
 
 /// The crates in `tools`.
-fn crates() -> BTreeSet<String> {
+pub(crate) fn crates() -> BTreeSet<String> {
     let entries = fs::read_dir(root().join("tools")).expect("a folder").map(|entry| entry.expect("an entry").path());
     let crates = entries.filter(|path| path.join("Cargo.toml").exists());
     crates.map(|path| path.file_name().expect("a name").to_string_lossy().into_owned()).collect()

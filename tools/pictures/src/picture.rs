@@ -1,6 +1,6 @@
 //! A picture in linear colours.
 
-use crate::{PictureError, PictureFormat, Preview, Result, exr_image};
+use crate::{PictureError, Preview, Result};
 
 /// A picture in linear Rec. 709 RGB, row by row from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,26 +16,6 @@ impl Picture {
     #[must_use]
     pub fn black(size: [u32; 2]) -> Self {
         Self { size, pixels: vec![[0.0; 3]; size[0] as usize * size[1] as usize] }
-    }
-
-    /// The picture as a file of this format. Into EXR go the name and version of the software that made it, and attributes
-    /// as comments.
-    ///
-    /// # Errors
-    /// If it cannot be encoded.
-    pub fn encode(&self, format: PictureFormat, software: &str, attributes: &[(&str, String)]) -> Result<Vec<u8>> {
-        match format {
-            PictureFormat::Exr => exr_image::encode(self, software, attributes),
-            PictureFormat::Png => self.preview().encode_png(),
-        }
-    }
-
-    /// The picture in the bytes of an EXR file with channels R, G, B.
-    ///
-    /// # Errors
-    /// If there is none.
-    pub fn decode_exr(bytes: &[u8]) -> Result<Self> {
-        exr_image::decode(bytes)
     }
 
     /// As a screen shows it: clipped to [0, 1] and through the sRGB curve, 8 bits. Values stay comparable between pictures.

@@ -1,7 +1,5 @@
 //! A picture as a screen shows it.
 
-use crate::{Picture, PictureFormat, Result, png_image};
-
 /// A picture as a screen shows it: 8 bits, sRGB, row by row from the upper left corner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Preview {
@@ -9,27 +7,6 @@ pub struct Preview {
     pub size: [u32; 2],
     /// Its pixels.
     pub pixels: Vec<[u8; 3]>,
-}
-
-impl Preview {
-    /// The preview in the bytes of a PNG file, or made of the picture in an EXR file, brightened by so many stops.
-    ///
-    /// # Errors
-    /// If there is no such picture.
-    pub fn decode(format: PictureFormat, bytes: &[u8], stops: f32) -> Result<Self> {
-        match format {
-            PictureFormat::Exr => Ok(Picture::decode_exr(bytes)?.exposed(stops).preview()),
-            PictureFormat::Png => png_image::decode(bytes),
-        }
-    }
-
-    /// A PNG file.
-    ///
-    /// # Errors
-    /// If it cannot be encoded.
-    pub fn encode_png(&self) -> Result<Vec<u8>> {
-        png_image::encode(self.size, self.pixels.as_flattened())
-    }
 }
 
 /// IEC 61966-2-1, to 8 bits.
@@ -43,6 +20,7 @@ pub(crate) fn srgb(x: f32) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Picture, PictureFormat};
 
     #[test]
     fn the_curve_is_srgb() {

@@ -7,8 +7,7 @@ use mean::mean;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Mean colour of an image, linear red, green, blue; or why there is none, in a few words.
-pub(crate) type Texture = Result<[f32; 3], String>;
+pub(crate) use mean::Texture;
 
 /// The mean colour of the image that a `map_Kd` statement of the library `mtl` names. Images are read once.
 pub(crate) fn mean_colour(

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::Description;
+use crate::PictureFormat;
 
 fn picture() -> Picture {
     let pixels = (0..12u8).map(|i| [f32::from(i) * 0.1, 1e-6, f32::from(i) * 7e4]).collect();

@@ -1,6 +1,5 @@
 //! The mean colour of an image file.
 
-use super::Texture;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
@@ -11,6 +10,9 @@ mod tests;
 /// Longest side of an image, in texels, and most memory for it: more is refused before it is asked for.
 const LONGEST_SIDE: u32 = 1 << 15;
 const MOST_BYTES: u64 = 512 << 20;
+
+/// Mean colour of an image, linear red, green, blue; or why there is none, in a few words.
+pub(crate) type Texture = Result<[f32; 3], String>;
 
 /// The mean of an image's light, weighted by alpha: what is not seen does not count. The format is known by how the file
 /// begins, or else by how it is called.
