@@ -23,6 +23,7 @@ mod pipes;
 mod precomputed;
 mod readme;
 mod scenes;
+mod situations;
 mod slopes;
 mod streams;
 mod support;
