@@ -14,6 +14,7 @@ mod files;
 mod foreign;
 mod guide;
 mod invariance;
+mod leaks;
 mod light;
 mod oracles;
 mod orders;

@@ -17,7 +17,7 @@ fn comments(folder: &Folder, name: &str) -> Vec<String> {
 fn an_exr_picture_says_how_it_was_made() {
     let folder = Folder::with_streams();
     let run = |options: &str, name: &str| {
-        folder.run(&format!("pm-gather map.pmp q.pmq {options} --no-trace --image {name}")).ok();
+        folder.run(&format!("pm-gather -q map.pmp q.pmq {options} --no-trace --image {name}")).ok();
         comments(&folder, name)
     };
     let plain = run("-k 37", "a.exr");

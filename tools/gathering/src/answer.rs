@@ -54,12 +54,16 @@ impl Answerer<'_> {
         let mut carry = Carry::default();
         for query in &queries {
             reads.clear();
-            let known = self.precomputed.filter(|sites| sites.serves(query));
-            let known = known.map(|sites| sites.contribution(query, &mut reads));
-            if let Some(outcome) = known {
-                counts.attempts += 1;
-                counts.no_site += u64::from(outcome == Outcome::NoSite);
-            } else {
+            let known = match self.precomputed.filter(|sites| sites.serves(query)) {
+                Some(sites) => {
+                    let known = sites.contribution(query, &mut reads);
+                    counts.attempts += 1;
+                    counts.no_site += u64::from(known.is_none());
+                    known
+                }
+                None => None,
+            };
+            if known.is_none() {
                 counts.attempts += u64::from(if watched {
                     self.find(query.position, &mut carry, &mut found, &mut reads)
                 } else {
@@ -89,7 +93,6 @@ impl Answerer<'_> {
                         contributions.push((query.pixel, units));
                     }
                     Outcome::NoArea => counts.no_area += 1,
-                    Outcome::NoSite => {}
                 }
             }
         }

@@ -32,7 +32,7 @@ pub struct SearchCounts {
     pub short: u64,
     /// Estimates that could not be made because the photons' disc has no area.
     pub no_area: u64,
-    /// Queries for which there was no precomputed irradiance with a similar normal.
+    /// Queries of whose surface no site of precomputed irradiance knew, so that they searched.
     pub no_site: u64,
 }
 

@@ -17,6 +17,8 @@ const MOST_CUTS: usize = 4;
 const ON_THE_PLANE: f64 = 1.0 / 16.0;
 /// Planes that meet the query's at a smaller angle (its sine) do not cut it: the backs of thin walls, above all.
 const LEAST_SINE: f64 = 0.4;
+/// At this distance half as large a circle of an edge's other surface lies within the photons' ball as of the query's own.
+const SURELY_SEEN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// A straight cut through the disc, all lengths in radii.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +102,12 @@ impl Disc {
     #[inline]
     pub(super) const fn is_whole(&self) -> bool {
         self.cuts.is_empty()
+    }
+
+    /// How far the query is from the nearest plane that cuts the disc, in radii; if none does, as far as a plane would surely
+    /// be shown by some photons. So far all around it is as here.
+    pub(super) fn reach(&self) -> f64 {
+        self.cuts.iter().map(|cut| cut.height).fold(SURELY_SEEN, f64::min)
     }
 
     /// Integral of the kernel's weight over the disc, in squared radii: its area, for the constant kernel.

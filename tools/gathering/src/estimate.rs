@@ -62,7 +62,7 @@ impl<'a> RadianceEstimate<'a> {
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
     pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
-        let (surface, area) = match self.area(query.position, query.normal(), found, scratch) {
+        let Lit { surface, area, .. } = match self.area(query.position, query.normal(), found, scratch) {
             Ok(known) => known,
             Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
             Err(Nothing::NoArea) => return Outcome::NoArea,
@@ -75,8 +75,9 @@ impl<'a> RadianceEstimate<'a> {
         )
     }
 
-    /// Irradiance at a point of a surface, in watts per square scene unit, given the photons found for it; `None` if
-    /// their disc has no area.
+    /// Irradiance at a point of a surface, in watts per square scene unit, given the photons found for it, and how far from
+    /// there it tells of the same surface: most of their radius, or the distance of the nearest edge; `None` if their disc has no
+    /// area.
     #[must_use]
     pub fn irradiance(
         &self,
@@ -84,13 +85,13 @@ impl<'a> RadianceEstimate<'a> {
         normal: [f32; 3],
         found: &Nearest,
         scratch: &mut Scratch,
-    ) -> Option<[f64; 3]> {
+    ) -> Option<([f64; 3], f64)> {
         match self.area(position, normal, found, scratch) {
-            Ok((surface, area)) => {
+            Ok(Lit { surface, area, reach }) => {
                 let flux = self.sum(&surface, None, &mut scratch.own);
-                Some(flux.map(|flux| flux / (area * self.emitted_paths)))
+                Some((flux.map(|flux| flux / (area * self.emitted_paths)), reach))
             }
-            Err(Nothing::Dark) => Some([0.0; 3]),
+            Err(Nothing::Dark) => Some(([0.0; 3], 0.0)),
             Err(Nothing::NoArea) => None,
         }
     }
@@ -102,7 +103,7 @@ impl<'a> RadianceEstimate<'a> {
         normal: [f32; 3],
         found: &Nearest,
         scratch: &mut Scratch,
-    ) -> Result<(Surface, f64), Nothing> {
+    ) -> Result<Lit, Nothing> {
         let EstimateOptions { max_dist, estimator, kernel, edges, .. } = self.options;
         // The photon that sets the radius, and the squared radius. Where the limit cuts the search short it sets the
         // radius itself and all photons count; with no limit, the farthest of the few photons there are does.
@@ -118,9 +119,11 @@ impl<'a> RadianceEstimate<'a> {
         let surface = Surface { position: Vec3::from(position).as_dvec3(), normal, radius: radius_squared.sqrt() };
         let mut disc = Disc::new(Vec3::from(normal).as_dvec3());
         self.sort_out(&surface, found, rim, scratch);
+        let mut reach = disc.reach();
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
         if edges == Edges::Cut && radius_squared.is_finite() && !scratch.strangers.is_empty() {
             disc.cut(&scratch.strangers);
+            reach = disc.reach();
             if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
                 disc = Disc::new(Vec3::from(normal).as_dvec3());
             }
@@ -128,7 +131,7 @@ impl<'a> RadianceEstimate<'a> {
                 scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
             }
         }
-        Ok((surface, radius_squared * disc.integral(kernel)))
+        Ok(Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface })
     }
 
     /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
@@ -159,6 +162,15 @@ impl<'a> RadianceEstimate<'a> {
         let side = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
         flux.into_iter().fold(0.0, f64::max) / (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>()
     }
+}
+
+/// What photons light.
+struct Lit {
+    surface: Surface,
+    /// Its area that they light, in square scene units, each part times the kernel's weight there.
+    area: f64,
+    /// As far as no edge is, in scene units.
+    reach: f64,
 }
 
 /// Why there is no area that photons light.

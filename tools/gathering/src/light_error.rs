@@ -17,7 +17,7 @@ impl LightError {
     pub fn add(&mut self, found: Outcome, expected: Outcome) {
         let radiance = |outcome| match outcome {
             Outcome::Radiance(radiance) => radiance,
-            Outcome::NoArea | Outcome::NoSite => [0.0; 3],
+            Outcome::NoArea => [0.0; 3],
         };
         for (found, expected) in radiance(found).into_iter().zip(radiance(expected)) {
             self.values += 1;

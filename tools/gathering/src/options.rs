@@ -46,6 +46,4 @@ pub enum Outcome {
     Radiance([f64; 3]),
     /// The nearest photons all lie at the query's own point, so that their disc has no area: nothing can be said.
     NoArea,
-    /// Irradiance was computed beforehand nowhere where the normal is similar: no light.
-    NoSite,
 }

@@ -9,18 +9,18 @@
 //! long as the photons' discs are large beside the distances to sites, k beside 4 times the photons to a site; k = 10 with
 //! one site in four is 4 % too bright.
 //!
-//! A site counts up to twice the largest radius of any search made beforehand: farther away, its disc shares no photon
-//! with the one that the point itself would have. Without this limit the back of a lamp would be lit by the floor, and
-//! every search for what is not there would read the whole tree.
+//! A site counts only where it knows something: well within its photons' disc, nearer than the nearest edge that they show, and
+//! near the tangent plane of the point that asks. Without the first two a sealed dark room is lit by the sites of the room
+//! beyond its wall, and a room behind a gap by those before it. Where no site counts, the point searches for itself.
 
 mod build;
 mod search;
 
 use super::{Outcome, SearchCounts};
-use build::Chunk;
 pub use build::Precomputation;
+use build::{Chunk, Known};
 use pm_formats::trace::{Coding, Region, lay_out};
-use pm_formats::{Material, Number, Photon, Query, StageReport, unpack_rgbe};
+use pm_formats::{Material, Number, Photon, Query, StageReport, unpack_direction, unpack_rgbe};
 use pm_maps::{AccessObserver, BuildError, KdTree, Layout};
 use pm_parallel::in_order;
 use std::f64::consts::PI;
@@ -35,13 +35,29 @@ struct Site {
     position: [f32; 3],
     /// In watts per square scene unit, RGBE.
     irradiance: [u8; 4],
-    /// Of the photon's surface, octahedral, 7 bits a coordinate.
-    normal: u16,
-    /// Split axis.
-    axis: u16,
+    /// Of the photon's surface, octahedral, 7 bits a coordinate, above the split axis.
+    normal_axis: u16,
+    /// The upper half of a float: the squared distance up to which it counts, in square scene units.
+    reach: u16,
 }
 
 const _: () = assert!(size_of::<Site>() == 20);
+
+impl Site {
+    /// Squared distance up to which it counts.
+    #[inline]
+    fn reach_squared(&self) -> f32 {
+        f32::from_bits(u32::from(self.reach) << 16)
+    }
+
+    fn normal(&self) -> [f32; 3] {
+        unpack_direction::<7>(u32::from(self.normal_axis >> 2))
+    }
+
+    fn axis(&self) -> usize {
+        usize::from(self.normal_axis & 3)
+    }
+}
 
 /// Why irradiance cannot be computed beforehand.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -62,7 +78,7 @@ pub struct PrecomputedIrradiance<'a> {
     ids: Vec<u32>,
     materials: &'a [Material],
     share: u32,
-    /// Largest squared distance at which a site counts.
+    /// Largest squared distance at which any site counts.
     bound: f32,
     /// Number of its region in the trace.
     region: u16,
@@ -79,17 +95,15 @@ impl<'a> PrecomputedIrradiance<'a> {
     pub fn new(how: &Precomputation<'a>, threads: usize) -> Result<Self, PrecomputationError> {
         let ids: Vec<u32> = (0..).take(how.photons.len()).step_by(how.share as usize).collect();
         let (mut chosen, mut known, mut built) = (vec![], vec![], SearchCounts::default());
-        let mut radius_squared = 0f32;
         let mut chunks = ids.chunks(CHUNK);
         in_order(
             threads,
             || Ok(chunks.next()),
             |ids| how.irradiance_at(ids),
             |chunk| {
-                let Chunk { sites, radius_squared: its, counts } = chunk?;
-                chosen.extend(sites.iter().map(|&(id, _)| how.photons[id as usize]));
+                let Chunk { sites, counts } = chunk?;
+                chosen.extend(sites.iter().map(|site| how.photons[site.id as usize]));
                 known.extend(sites);
-                radius_squared = radius_squared.max(its);
                 built += counts;
                 Ok::<_, PrecomputationError>(())
             },
@@ -98,14 +112,16 @@ impl<'a> PrecomputedIrradiance<'a> {
         let nodes = || tree.nodes().map(|(axis, at)| (axis as u16, at as usize));
         let site = |(axis, at): (u16, usize)| {
             let photon: &Photon = &chosen[at];
-            Site { position: photon.position, irradiance: known[at].1, normal: photon.flags >> 2, axis }
+            let Known { irradiance, reach, .. } = known[at];
+            Site { position: photon.position, irradiance, normal_axis: photon.flags & !3 | axis, reach }
         };
+        let sites: Vec<Site> = nodes().map(site).collect();
         Ok(Self {
-            sites: nodes().map(site).collect(),
-            ids: nodes().map(|(_, at)| known[at].0).collect(),
+            bound: sites.iter().map(Site::reach_squared).fold(0.0, f32::max),
+            sites,
+            ids: nodes().map(|(_, at)| known[at].id).collect(),
             materials: how.materials,
             share: how.share,
-            bound: (4.0 * radius_squared).min(how.search.max_dist * how.search.max_dist),
             region: 0,
             built,
             searches: ids.len() as u64,
@@ -118,17 +134,15 @@ impl<'a> PrecomputedIrradiance<'a> {
         material.specular.iter().all(|&share| share <= 0.0)
     }
 
-    /// Is this query answered by the irradiance of a site?
+    /// Is this query to be answered by the irradiance of a site, if one knows its surface?
     #[must_use]
     pub fn serves(&self, query: &Query) -> bool {
         Self::is_diffuse(&self.materials[usize::from(query.material)])
     }
 
     /// The regions of a trace in which queries of diffuse surfaces read sites: the sites', after the photon map's
-    /// (`others`) if there are glossy surfaces, whose queries read that.
+    /// (`others`), which glossy surfaces read and those of which no site knows.
     pub fn lay_out(&mut self, others: Vec<Region>) -> Vec<Region> {
-        let wanted = !self.materials.iter().all(Self::is_diffuse);
-        let others = if wanted { others } else { vec![] };
         self.region = u16::try_from(others.len()).expect("a map has few regions");
         let nodes = u32::try_from(self.sites.len()).expect("no more than photons");
         let record = size_of::<Site>() as u32;
@@ -138,15 +152,16 @@ impl<'a> PrecomputedIrradiance<'a> {
         lay_out(others.into_iter().map(|it| (it.name, it.size, it.record_size, it.coding)).chain([own]))
     }
 
-    /// What `query` adds to its pixel: weight x albedo / pi x irradiance of the nearest site with a similar normal.
+    /// What `query` adds to its pixel: weight x albedo / pi x irradiance of the nearest site that knows of its surface;
+    /// `None` if there is none.
     #[must_use]
-    pub fn contribution(&self, query: &Query, eyes: &mut impl AccessObserver) -> Outcome {
-        let Some(site) = self.nearest(query.position, query.normal(), eyes) else { return Outcome::NoSite };
+    pub fn contribution(&self, query: &Query, eyes: &mut impl AccessObserver) -> Option<Outcome> {
+        let site = self.nearest(query.position, query.normal(), eyes)?;
         let irradiance = unpack_rgbe(self.sites[site].irradiance);
         let diffuse = self.materials[usize::from(query.material)].diffuse;
-        Outcome::Radiance([0, 1, 2].map(|channel| {
+        Some(Outcome::Radiance([0, 1, 2].map(|channel| {
             f64::from(query.weight[channel]) * (irradiance[channel] * (f64::from(diffuse[channel]) / PI))
-        }))
+        })))
     }
 
     /// Adds what was done beforehand to a stage's report.

@@ -27,12 +27,19 @@ pub struct Precomputation<'a> {
     pub materials: &'a [Material],
 }
 
+/// What is known at a site.
+pub(super) struct Known {
+    /// Of the photon there.
+    pub(super) id: u32,
+    /// RGBE.
+    pub(super) irradiance: [u8; 4],
+    /// The upper half of the squared distance, as a float, up to which it counts.
+    pub(super) reach: u16,
+}
+
 /// What is known of some sites.
 pub(super) struct Chunk {
-    /// Photon id and irradiance.
-    pub(super) sites: Vec<(u32, [u8; 4])>,
-    /// Of the largest disc of photons; infinite where there are fewer than k.
-    pub(super) radius_squared: f32,
+    pub(super) sites: Vec<Known>,
     pub(super) counts: SearchCounts,
 }
 
@@ -42,26 +49,31 @@ impl Precomputation<'_> {
         let (mut found, mut scratch) = (Nearest::new(self.search.k, 0.0), Scratch::default());
         let mut reads = SearchReads::with_rereads(self.reread);
         let mut counts = SearchCounts::default();
-        let (mut sites, mut radius_squared) = (Vec::with_capacity(ids.len()), 0f32);
+        let mut sites = Vec::with_capacity(ids.len());
         for &id in ids {
             let photon = &self.photons[id as usize];
             reads.clear();
             counts.attempts += u64::from(self.search.run(self.map, photon.position, &mut found, &mut reads));
             counts.accesses += reads.len() as u64;
             counts.short += u64::from(!found.is_full());
-            let farthest = found.farthest().filter(|_| found.is_full());
-            radius_squared = radius_squared.max(farthest.map_or(f32::INFINITY, |(distance, _)| distance));
             match self.estimate.irradiance(photon.position, photon.normal(), &found, &mut scratch) {
-                Some(irradiance) => {
+                Some((irradiance, reach)) => {
                     // By a hash of the id, so that sums over many sites are exact on average.
                     let mut random = Random::new(&[ROUNDING, u64::from(id)]);
                     #[expect(clippy::cast_possible_truncation, reason = "what is too large becomes infinite")]
                     let packed = pack_rgbe(irradiance.map(|x| x as f32), [(); 3].map(|()| random.unit()));
-                    sites.push((id, packed.ok_or(PrecomputationError::TooBright(id))?));
+                    let irradiance = packed.ok_or(PrecomputationError::TooBright(id))?;
+                    sites.push(Known { id, irradiance, reach: upper_half(reach * reach) });
                 }
                 None => counts.no_area += 1,
             }
         }
-        Ok(Chunk { sites, radius_squared, counts })
+        Ok(Chunk { sites, counts })
     }
+}
+
+/// The upper half of a single-precision float not above `x`.
+#[expect(clippy::cast_possible_truncation, reason = "16 bits are left; what is too large becomes infinite")]
+fn upper_half(x: f64) -> u16 {
+    ((x as f32).to_bits() >> 16) as u16
 }

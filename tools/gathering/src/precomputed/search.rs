@@ -1,15 +1,29 @@
 //! The search for one site.
 
-use super::PrecomputedIrradiance;
+use super::{PrecomputedIrradiance, Site};
 use crate::surface::{coarse, on_same_surface};
-use pm_formats::unpack_direction;
 use pm_maps::AccessObserver;
 use pm_maps::geometry::distance_squared;
 
 /// Deepest tree of at most 2^30 nodes, and one more.
 const MAX_DEPTH: usize = 32;
+/// A site farther than this share of its reach from the tangent plane of the point that asks is of another surface: a step, a
+/// shelf, a bump. Where the point is on a sphere of a radius as large as the reach, the site at half the reach is as far.
+const FARTHEST_FROM_PLANE: f32 = 1.0 / 8.0;
+
+impl Site {
+    /// Does it know of the surface at a point, at this squared distance, with this unit normal?
+    fn knows(&self, point: [f32; 3], normal: [f32; 3], distance_squared: f32) -> bool {
+        let reach = self.reach_squared();
+        let height: f32 = (0..3).map(|axis| (self.position[axis] - point[axis]) * normal[axis]).sum();
+        distance_squared <= reach
+            && height * height <= reach * (FARTHEST_FROM_PLANE * FARTHEST_FROM_PLANE)
+            && on_same_surface(coarse(self.normal()), normal)
+    }
+}
+
 impl PrecomputedIrradiance<'_> {
-    /// Index of the site nearest to `point` among those whose normal is similar, ties by photon id.
+    /// Index of the site nearest to `point` among those that know of its surface, ties by photon id.
     ///
     /// Jensen's walk with a bound that shrinks to the nearest found. A site is looked at before those below it, so that
     /// the bound is small as early as can be.
@@ -30,12 +44,11 @@ impl PrecomputedIrradiance<'_> {
             // Not `<`: one as far as the nearest may have the smaller id. Also false for NaN.
             if distance <= bound {
                 let mine = key(distance, self.ids[at - 1]);
-                let its_normal = || unpack_direction::<7>(u32::from(site.normal));
-                if mine < best && on_same_surface(coarse(its_normal()), normal) {
+                if mine < best && site.knows(point, normal, distance) {
                     (nearest, best, bound) = (Some(at - 1), mine, distance);
                 }
             }
-            let axis = usize::from(site.axis);
+            let axis = site.axis();
             let delta = point[axis] - site.position[axis];
             let (near, far) = if delta > 0.0 { (2 * at + 1, 2 * at) } else { (2 * at, 2 * at + 1) };
             if far <= count {

@@ -79,27 +79,14 @@ fn cases() -> Vec<(&'static str, Vec<Photon>)> {
     all.into_iter().map(with_normals).collect()
 }
 
-/// Twice the largest distance of a fifth-nearest photon from every `share`-th, or the limit of all searches; squared.
-fn limit_by_hand(photons: &[Photon], how: &Precomputation<'_>) -> f32 {
-    let fifth = |site: &Photon| {
-        let mut distances: Vec<f32> =
-            photons.iter().map(|photon| distance_squared(site.position, photon.position)).collect();
-        distances.sort_by(f32::total_cmp);
-        distances.get(4).copied().unwrap_or(f32::INFINITY)
-    };
-    let most = how.search.max_dist * how.search.max_dist;
-    photons.iter().step_by(how.share as usize).map(|site| 4.0 * fifth(site)).fold(0.0, f32::max).min(most)
-}
-
 #[test]
 fn the_nearest_site_is_that_of_looking_at_all() {
     let mut found = 0;
     for (name, photons) in cases() {
         for max_dist in [0.0, 0.05, 1.0, f32::INFINITY] {
             for share in [1, 4, 1000] {
-                with_sites(&photons, Search::new(5, max_dist), share, |sites, how| {
-                    let limit = limit_by_hand(&photons, how);
-                    let own = photons.iter().step_by((photons.len() / 20).max(1)).map(|photon| photon.position);
+                with_sites(&photons, Search::new(5, max_dist), share, |sites, _| {
+                    let own = photons.iter().step_by((photons.len() / 60).max(1)).map(|photon| photon.position);
                     let beside = own.clone().map(|[x, y, z]| [x + 0.013, y * 0.99, z - 0.4]);
                     for point in own.chain(beside).chain([[0.5; 3], [1e9, -1e9, 0.0]]) {
                         for normal in NORMALS.into_iter().chain([[0.0, 0.0, 1.0]]) {
@@ -109,7 +96,12 @@ fn the_nearest_site_is_that_of_looking_at_all() {
                                     let own = photons[sites.ids[at] as usize].normal();
                                     (0..3).map(|axis| own[axis] * normal[axis]).sum::<f32>() > 0.9
                                 })
-                                .filter(|at| near(at) <= limit)
+                                .filter(|&at| {
+                                    let Site { position, .. } = sites.sites[at];
+                                    let reach = sites.sites[at].reach_squared();
+                                    let off: f32 = (0..3).map(|i| (position[i] - point[i]) * normal[i]).sum();
+                                    near(&at) <= reach && off * off <= reach / 64.0
+                                })
                                 .min_by(|a, b| near(a).total_cmp(&near(b)).then(sites.ids[*a].cmp(&sites.ids[*b])));
                             let nearest = sites.nearest(point, normal, &mut Blind);
                             assert_eq!(
@@ -137,7 +129,7 @@ fn at_a_site_it_is_the_estimate() {
             let (mut found, mut scratch) = (Nearest::new(20, 0.0), Scratch::default());
             how.search.run(how.map, query.position, &mut found, &mut Blind);
             let Outcome::Radiance(expected) = how.estimate.contribution(&query, &found, &mut scratch) else { panic!() };
-            let Outcome::Radiance(found) = sites.contribution(&query, &mut Blind) else { panic!() };
+            let Some(Outcome::Radiance(found)) = sites.contribution(&query, &mut Blind) else { panic!() };
             // Photons are white, so that each mantissa is at least 128: off by at most one of them.
             let off = (0..3).map(|channel| (found[channel] / expected[channel] - 1.0).abs()).fold(0.0, f64::max);
             assert!(off < 1.0 / 128.0, "{id}: {found:?} for {expected:?}");
@@ -157,10 +149,16 @@ fn an_even_density_is_seen_without_bias() {
         for _ in 0..runs {
             let floor: Vec<_> =
                 (0..800).map(|_| photon([2.0 * random.unit() - 1.0, 0.0, 2.0 * random.unit() - 1.0], UP)).collect();
-            with_sites(&floor, Search::new(k, f32::INFINITY), share, |sites, _| {
+            with_sites(&floor, Search::new(k, f32::INFINITY), share, |sites, how| {
                 for _ in 0..points {
-                    let at = [random.unit() - 0.5, 0.0, random.unit() - 0.5];
-                    let Outcome::Radiance([r, ..]) = sites.contribution(&query(at, UP), &mut Blind) else { panic!() };
+                    let query = query([random.unit() - 0.5, 0.0, random.unit() - 0.5], UP);
+                    // Where no site is near the query searches, as everybody's would.
+                    let outcome = sites.contribution(&query, &mut Blind).unwrap_or_else(|| {
+                        let (mut found, mut scratch) = (Nearest::new(k, 0.0), Scratch::default());
+                        how.search.run(how.map, query.position, &mut found, &mut Blind);
+                        how.estimate.contribution(&query, &found, &mut scratch)
+                    });
+                    let Outcome::Radiance([r, ..]) = outcome else { panic!() };
                     mean += r * PI / 0.5 / 200.0 / f64::from(runs * points);
                 }
             });
@@ -171,25 +169,45 @@ fn an_even_density_is_seen_without_bias() {
 }
 
 #[test]
-fn where_nothing_can_be_said_there_is_no_light() {
+fn where_nothing_can_be_said_there_is_no_site() {
     // All photons at one point: no disc has an area.
     let spot = vec![photon([0.5; 3], UP); 100];
     with_sites(&spot, Search::new(10, f32::INFINITY), 4, |sites, _| {
         assert_eq!((sites.sites.len(), sites.searches, sites.built.no_area), (0, 25, 25));
-        assert_eq!(sites.contribution(&query([0.5; 3], UP), &mut Blind), Outcome::NoSite);
+        assert_eq!(sites.contribution(&query([0.5; 3], UP), &mut Blind), None);
     });
-    // Sites are there, but none with this normal, or none within the limit.
-    let floor: Vec<_> = (0..100u8).map(|i| photon([f32::from(i), 0.0, 0.0], UP)).collect();
-    with_sites(&floor, Search::new(10, 20.0), 4, |sites, _| {
-        assert_eq!(sites.sites.len(), 25);
-        assert_eq!(sites.contribution(&query([0.5; 3], [1.0, 0.0, 0.0]), &mut Blind), Outcome::NoSite);
-        // The tenth photon from the end is 9 away.
-        assert_eq!(sites.contribution(&query([0.0, 18.1, 0.0], UP), &mut Blind), Outcome::NoSite);
-        assert!(matches!(sites.contribution(&query([0.0, 17.9, 0.0], UP), &mut Blind), Outcome::Radiance(_)));
+}
+
+#[test]
+fn a_site_counts_within_its_own_radius_near_the_plane_and_on_the_same_side() {
+    // A row of photons 1 apart, whose middle ones have their tenth neighbour 5 away, and the last 9: of that 1/sqrt(2) counts.
+    let row: Vec<_> = (0..101u8).map(|i| photon([f32::from(i), 0.0, 0.0], UP)).collect();
+    with_sites(&row, Search::new(10, f32::INFINITY), 20, |sites, _| {
+        assert_eq!(sites.sites.len(), 6);
+        let answered = |at, normal| sites.contribution(&query(at, normal), &mut Blind).is_some();
+        assert!(answered([43.5, 0.0, 0.0], UP) && !answered([43.6, 0.0, 0.0], UP));
+        assert!(answered([106.2, 0.0, 0.0], UP) && !answered([106.5, 0.0, 0.0], UP));
+        assert!(!answered([40.0, 0.0, 0.0], [1.0, 0.0, 0.0]) && !answered([40.0, 0.0, 0.0], [0.0, -1.0, 0.0]));
+        // An eighth of the reach above the site, and lower.
+        assert!(answered([40.0, 0.43, 0.0], UP) && !answered([40.0, 0.45, 0.0], UP));
     });
-    with_sites(&floor, Search::new(10, 8.0), 4, |sites, _| {
-        assert_eq!(sites.contribution(&query([0.0, 8.1, 0.0], UP), &mut Blind), Outcome::NoSite);
-        assert!(matches!(sites.contribution(&query([0.0, 7.9, 0.0], UP), &mut Blind), Outcome::Radiance(_)));
+    with_sites(&row, Search::new(10, 2.0), 20, |sites, _| {
+        let answered = |x| sites.contribution(&query([x, 0.0, 0.0], UP), &mut Blind).is_some();
+        assert!(answered(41.4) && !answered(41.5), "a limit of the search is the radius of its disc");
+    });
+}
+
+#[test]
+fn a_site_does_not_count_beyond_the_edge_that_its_photons_show() {
+    // A floor, and a wall that faces it, at x = 0; the floor goes on behind.
+    let cell = |i: u16| [f32::from(i % 20) * 0.1 + 0.05, f32::from(i / 20) * 0.1];
+    let floor = (0..400).map(|i| photon([cell(i)[0], 0.0, cell(i)[1]], UP));
+    let wall = (0..400).map(|i| photon([0.0, cell(i)[0], cell(i)[1]], [1.0, 0.0, 0.0]));
+    let photons: Vec<_> = floor.chain(wall).collect();
+    with_sites(&photons, Search::new(60, f32::INFINITY), 1, |sites, _| {
+        let answered = |x| sites.contribution(&query([x, 0.0, 1.0], UP), &mut Blind).is_some();
+        assert!(answered(0.05) && answered(0.09) && answered(0.5));
+        assert!(!answered(-0.01) && !answered(-0.2), "the room behind the wall");
     });
 }
 
@@ -252,9 +270,10 @@ fn glossy_surfaces_are_left_to_the_photon_map() {
     with_sites(&floor, Search::new(10, f32::INFINITY), 4, |mut sites, how| {
         assert!(sites.serves(&query([0.0; 3], UP)));
         assert!(!sites.serves(&Query { material: 1, ..query([0.0; 3], UP) }));
-        // Where no surface is glossy nobody reads the photons.
+        // Glossy surfaces or not: where no site knows of a surface its queries read the photons.
         sites.materials = &how.materials[..1];
         let regions = sites.lay_out(how.map.regions(false));
-        assert_eq!((regions.len(), &*regions[0].name, regions[0].size, sites.region), (1, "precomputed", 500, 0));
+        let names: Vec<_> = regions.iter().map(|region| (&*region.name, region.size)).collect();
+        assert_eq!((names[1], sites.region), (("precomputed", 500), 1));
     });
 }

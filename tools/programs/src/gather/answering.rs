@@ -90,10 +90,9 @@ impl Done {
                 counts.no_area
             ));
         }
-        // The backs of lamps and the like are no news.
-        if counts.no_site > queries / 10 {
+        if counts.no_site > 0 {
             common.remark(format!(
-                "{} of {queries} queries have no precomputed irradiance of a similar normal near: nothing was added for them",
+                "{} of {queries} queries searched all the same: no precomputed irradiance is known of their surface near them",
                 counts.no_site
             ));
         }
