@@ -9,7 +9,7 @@
 //! | --- | --- |
 //! | `purpose`, `roulette`, `sampling` | random numbers, and what is made of them |
 //! | `bvh`, `surface` | where rays hit |
-//! | `scatter`, `directions`, `reflection`, `lights` | what surfaces and lamps do |
+//! | `scatter`, `directions`, `reflection`, `lights`, `direct` | what surfaces and lamps do |
 //! | `photon_paths` | photons |
 //! | `eye`, `guide`, `strata` | which points are seen, and in which directions rays go from there |
 //! | `gather_options`, `ray_counts`, `gather_path`, `query`, `gather_rays` | gather rays, and the queries where they end |
@@ -18,6 +18,7 @@
 
 mod bvh;
 mod cache_records;
+mod direct;
 mod directions;
 mod eye;
 mod gather_options;

@@ -1,6 +1,7 @@
 //! The path of one gather ray: through mirrors and glass to a surface that spreads light, and a bounce further where it
 //! is too short.
 
+use super::direct::direct_light;
 use super::gather_options::GatherOptions;
 use super::lights::Lights;
 use super::ray_counts::RayCounts;
@@ -68,8 +69,8 @@ impl<'a> GatherPaths<'a> {
         let PathRandom { path: random, light_at_short_end } = random;
         let reflection = Reflection::new(self.surfaces.material(&end.point), end.point.facing, end.view);
         if self.options.direct {
-            let brdf = |towards: Vec3| reflection.brdf(towards);
-            light(end.weight * self.lights.reflected(&self.surfaces, &end.point, 1, light_at_short_end, brdf));
+            let Self { surfaces, lights, .. } = self;
+            light(end.weight * direct_light(surfaces, lights, &end.point, &reflection, 1, light_at_short_end));
         }
         let (u, v) = (random.unit(), random.unit());
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;

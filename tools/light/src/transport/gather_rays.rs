@@ -2,6 +2,7 @@
 //!
 //! Steinhurst, Coombe, Lastra, *Reordering for Cache Conscious Photon Mapping*, GI 2005, Fig. 3 and Fig. 5.
 
+use super::direct::direct_light;
 use super::eye::{Eye, VisiblePoint};
 use super::gather_options::GatherOptions;
 use super::gather_path::{GatherPaths, PathRandom};
@@ -86,10 +87,9 @@ impl<'a> GatherRays<'a> {
         if direct {
             let reflection = Reflection::new(self.material(visible), visible.point.facing, visible.view);
             let key = [seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(visible.number)];
-            let brdf = |towards: Vec3| reflection.brdf(towards);
             let random = &mut Random::new(&key);
             let GatherPaths { lights, surfaces, .. } = &self.paths;
-            light(visible.share * lights.reflected(surfaces, &visible.point, light_samples, random, brdf));
+            light(visible.share * direct_light(surfaces, lights, &visible.point, &reflection, light_samples, random));
         }
     }
 

@@ -67,7 +67,8 @@ impl Lights {
     }
 
     /// Radiance that a point reflects of light that comes straight from the lights, the mean over `samples` shadow rays;
-    /// `brdf` is its BRDF for a direction towards a light. With a BRDF of 1 this is the irradiance.
+    /// `brdf` is its BRDF for a direction towards a light, perhaps weighed by the density with which that direction is
+    /// chosen here, per steradian. With a BRDF of 1 this is the irradiance.
     ///
     /// Samples are strata of the total power; where they lie on the lights is a low-discrepancy sequence, shifted at
     /// random so that each sample by itself is spread evenly.
@@ -77,7 +78,7 @@ impl Lights {
         point: &SurfacePoint,
         samples: u32,
         random: &mut Random,
-        brdf: impl Fn(Vec3) -> Vec3,
+        brdf: impl Fn(Vec3, f64) -> Vec3,
     ) -> Vec3 {
         if self.is_empty() || samples == 0 {
             return Vec3::ZERO;
@@ -98,9 +99,28 @@ impl Lights {
             // cos cos' / d^2 over the density 1 / area; `way` is not normalised, hence d^4.
             let geometry = f64::from(cosine_here) * f64::from(cosine_there) / f64::from(way.length_squared()).powi(2);
             let weight = geometry * chosen.light.area / (chosen.light.probability * f64::from(samples));
-            sum += chosen.light.radiance * brdf(way.normalize()) * weight as f32;
+            let density = chosen.light.density(way.length_squared(), cosine_there);
+            sum += chosen.light.radiance * brdf(way.normalize(), density) * weight as f32;
         }
         sum
+    }
+}
+
+impl Lights {
+    /// The density, per steradian, with which a shadow ray from a point is sent to a point on a lamp; 0 if it is on none.
+    pub(super) fn density(&self, from: Vec3, lamp: &SurfacePoint) -> f64 {
+        let at = self.triangles.binary_search_by_key(&(lamp.triangle as usize), |light| light.triangle);
+        let way = lamp.position - from;
+        at.map_or(0.0, |at| self.triangles[at].density(way.length_squared(), -way.dot(lamp.front)))
+    }
+}
+
+impl Light {
+    /// The density, per steradian, with which its points are chosen, at a distance given squared and times the cosine of the
+    /// angle to its normal.
+    fn density(&self, distance_squared: f32, distance_cosine: f32) -> f64 {
+        let d2 = f64::from(distance_squared);
+        self.probability / self.area * d2 * d2.sqrt() / f64::from(distance_cosine)
     }
 }
 

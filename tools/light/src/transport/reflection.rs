@@ -49,10 +49,25 @@ impl Reflection {
     /// The BRDF for a unit vector away from the surface, per steradian.
     pub(super) fn brdf(&self, other: Vec3) -> Vec3 {
         let lambert = self.diffuse / PI;
-        if self.specular == Vec3::ZERO {
+        if !self.has_lobe() {
             return lambert;
         }
         lambert + self.specular * ((self.exponent + 2.0) / (2.0 * PI) * self.lobe(other) / self.larger_cosine(other))
+    }
+
+    /// Is there a lobe?
+    pub(super) fn has_lobe(&self) -> bool {
+        self.specular != Vec3::ZERO
+    }
+
+    /// A direction of the lobe for `u` and `v` in [0, 1); it may lie below the surface.
+    pub(super) fn lobe_direction(&self, u: f32, v: f32) -> Vec3 {
+        phong_direction(self.axis, self.exponent, u, v)
+    }
+
+    /// The density, per steradian, with which [`lobe_direction`](Self::lobe_direction) chooses a direction.
+    pub(super) fn lobe_density(&self, direction: Vec3) -> f32 {
+        (self.exponent + 1.0) / (2.0 * PI) * self.lobe(direction)
     }
 
     fn larger_cosine(&self, other: Vec3) -> f32 {
@@ -89,7 +104,7 @@ impl Reflection {
         }
         let total = diffuse + specular;
         let direction = if specular > 0.0 && random.unit() * total >= diffuse {
-            phong_direction(self.axis, self.exponent, u, v)
+            self.lobe_direction(u, v)
         } else if spread == Spread::Uniform {
             uniform_direction(self.normal, u, v)
         } else {
@@ -104,14 +119,14 @@ impl Reflection {
             (Spread::Cosine, None) => cosine / PI,
             (Spread::Cosine, Some(guide)) => guide.density(direction) * cosine / PI,
         };
-        let narrow = if specular > 0.0 { (self.exponent + 1.0) / (2.0 * PI) * self.lobe(direction) } else { 0.0 };
+        let narrow = if specular > 0.0 { self.lobe_density(direction) } else { 0.0 };
         let density = (diffuse * broad + specular * narrow) / total;
         Some((direction, self.brdf(direction) * (cosine / density)))
     }
 
     /// A direction of the lobe alone, with what it carries; `None` if it would lie below the surface.
     pub(super) fn sample_lobe(&self, u: f32, v: f32) -> Option<(Vec3, Vec3)> {
-        let direction = phong_direction(self.axis, self.exponent, u, v);
+        let direction = self.lobe_direction(u, v);
         let cosine = direction.dot(self.normal);
         // The density has n + 1 where the BRDF has n + 2.
         let cosine = cosine / self.larger_cosine(direction);

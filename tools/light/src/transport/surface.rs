@@ -25,6 +25,8 @@ pub struct SurfacePoint {
     pub smooth: Vec3,
     /// Material, an index into the scene's.
     pub material: u16,
+    /// Triangle, an index into the scene's.
+    pub triangle: u32,
     /// How far a ray must start from the surface so that rounding does not put it on the wrong side.
     margin: f32,
 }
@@ -61,6 +63,7 @@ impl<'a> Surfaces<'a> {
             facing: if direction.dot(front) > 0.0 { -front } else { front },
             smooth,
             material: self.scene.material_ids[index],
+            triangle: hit.triangle,
             margin: MARGIN * (position.abs().max_element() + ab.abs().max(ac.abs()).max_element()),
         })
     }

@@ -58,7 +58,7 @@ fn direct_light_of_the_diffuse_box_is_that_of_a_path_tracer() {
         let mut sum = DVec3::ZERO;
         for i in 0..n {
             let random = &mut Random::new(&[i]);
-            sum += lights.reflected(&surfaces, &point, 16, random, |_| Vec3::ONE).as_dvec3() / n as f64;
+            sum += lights.reflected(&surfaces, &point, 16, random, |_, _| Vec3::ONE).as_dvec3() / n as f64;
         }
         for channel in 0..3 {
             let (found, expected) = (sum[channel], expected[channel]);
