@@ -87,8 +87,9 @@ fn what_is_reflected_is_the_same_by_lamps_alone() {
                 let [expected, its_error, its_deviation] = by_lamps_alone(&scene, view);
                 let what = format!("lamp {half_side}, view {view}: {mean} +- {error}, {expected} +- {its_error}");
                 assert!((mean - expected).abs() <= 4.0 * error.hypot(its_error) + 1e-5 * expected, "{what}");
-                // Two samples for one, and never much worse than one.
-                assert!(deviation <= 1.1 * its_deviation + 0.02 * expected, "{what}: {deviation}, {its_deviation}");
+                // What the balance heuristic may cost where one technique would do alone (Veach, thesis, theorem 9.2).
+                let most = its_deviation.hypot(expected * 0.5f64.sqrt());
+                assert!(deviation <= most, "{what}: {deviation}, {its_deviation}");
             }
         }
     }
