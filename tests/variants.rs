@@ -10,11 +10,12 @@ const GLOSSY_MATERIALS: &str = "newmtl floor\nKd .4 .3 .2\nKs .3 .3 .4\nNs 20\ni
      newmtl wall\nKd .5 .5 .1\nKs .2 .2 .2\nNs 5\nillum 2\nnewmtl lamp\nKd 0 0 0\nKe 9 8 7\n";
 
 /// Scene, options of `pm-queries`, options of `pm-gather`.
-const VARIANTS: [[&str; 3]; 8] = [
+const VARIANTS: [[&str; 3]; 9] = [
     ["", "--samples 3", ""],
     ["", "--min-gather-dist auto", ""],
     ["", "", "--kernel epanechnikov"],
     ["", "", "--kernel cone"],
+    ["", "", "--edges sloped"],
     ["glossy.obj --glossy --eye 0,1.2,3 --look-at 0,.8,0", "--samples 2", ""],
     ["", "--guide map.pmp", ""],
     ["glossy.obj --glossy --eye 0,1.2,3 --look-at 0,.8,0", "--guide map.pmp", "--kernel cone"],

@@ -7,6 +7,10 @@
 //! The problem is the boundary bias of Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2, who
 //! leaves it; convex hulls of the photons found are the usual cure, but shrink the area everywhere.
 
+mod slope;
+
+pub(super) use slope::Slope;
+
 use super::kernel::Kernel;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -115,6 +119,14 @@ impl Disc {
         if self.is_whole() {
             return kernel.disc();
         }
+        let mut sum = 0.0;
+        self.sectors(|from, to, border| sum += sector(kernel, from, to, border));
+        sum
+    }
+
+    /// Calls `visit` with the angles between which the border does not change, one pair after the other, and with the cut
+    /// that the border is there; with `None` where it is the rim.
+    fn sectors(&self, mut visit: impl FnMut(f64, f64, Option<&Cut>)) {
         // Seen from the query the border is, between these angles, either the rim or one cut.
         let mut angles = vec![0.0, TAU];
         let mut add = |angle: f64| angles.push(angle - (angle / TAU).floor() * TAU);
@@ -132,24 +144,25 @@ impl Disc {
             }
         }
         angles.sort_unstable_by(f64::total_cmp);
-        angles.windows(2).map(|pair| self.sector(kernel, pair[0], pair[1])).sum()
-    }
-
-    /// The part of [`integral`](Self::integral) between two angles between which the border does not change.
-    fn sector(&self, kernel: Kernel, from: f64, to: f64) -> f64 {
-        let middle = f64::midpoint(from, to);
-        let reach = |cut: &Cut| cut.distance / libm::cos(middle - cut.angle);
-        let reached = |cut: &&Cut| libm::cos(middle - cut.angle) > cut.distance;
-        let border = self.cuts.iter().filter(reached).min_by(|a, b| reach(a).total_cmp(&reach(b)));
-        match border {
-            // The query lies on the cut itself: nothing is left in this direction.
-            Some(cut) if cut.distance <= 1e-9 => 0.0,
-            Some(cut) => {
-                let up_to = |angle: f64| kernel.triangle(cut.distance, libm::tan(angle - cut.angle));
-                up_to(to) - up_to(from)
-            }
-            None => kernel.spoke() * (to - from),
+        for pair in angles.windows(2) {
+            let middle = f64::midpoint(pair[0], pair[1]);
+            let reach = |cut: &Cut| cut.distance / libm::cos(middle - cut.angle);
+            let reached = |cut: &&Cut| libm::cos(middle - cut.angle) > cut.distance;
+            visit(pair[0], pair[1], self.cuts.iter().filter(reached).min_by(|a, b| reach(a).total_cmp(&reach(b))));
         }
+    }
+}
+
+/// The part of [`Disc::integral`] between two angles between which the border does not change.
+fn sector(kernel: Kernel, from: f64, to: f64, border: Option<&Cut>) -> f64 {
+    match border {
+        // The query lies on the cut itself: nothing is left in this direction.
+        Some(cut) if cut.distance <= 1e-9 => 0.0,
+        Some(cut) => {
+            let up_to = |angle: f64| kernel.triangle(cut.distance, libm::tan(angle - cut.angle));
+            up_to(to) - up_to(from)
+        }
+        None => kernel.spoke() * (to - from),
     }
 }
 

@@ -4,7 +4,7 @@
 
 mod sum;
 
-use super::disc::{Disc, Stranger};
+use super::disc::{Disc, Slope, Stranger};
 use super::surface::{Surface, coarse, on_same_surface};
 use super::{Edges, EstimateOptions, Estimator, Kernel, Outcome};
 use glam::Vec3;
@@ -62,13 +62,13 @@ impl<'a> RadianceEstimate<'a> {
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
     pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
-        let Lit { surface, area, .. } = match self.area(query.position, query.normal(), found, scratch) {
+        let Lit { surface, area, slope, .. } = match self.area(query.position, query.normal(), found, scratch) {
             Ok(known) => known,
             Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
             Err(Nothing::NoArea) => return Outcome::NoArea,
         };
         let material = &self.materials[usize::from(query.material)];
-        let reflected = self.reflected(&surface, query, material, &mut scratch.own);
+        let reflected = self.reflected(&surface, slope, query, material, &mut scratch.own);
         Outcome::Radiance(
             [0, 1, 2]
                 .map(|channel| f64::from(query.weight[channel]) * reflected[channel] / (area * self.emitted_paths)),
@@ -87,9 +87,10 @@ impl<'a> RadianceEstimate<'a> {
         scratch: &mut Scratch,
     ) -> Option<([f64; 3], f64)> {
         match self.area(position, normal, found, scratch) {
-            Ok(Lit { surface, area, reach }) => {
-                let flux = self.sum(&surface, None, &mut scratch.own);
-                Some((flux.map(|flux| flux / (area * self.emitted_paths)), reach))
+            Ok(Lit { surface, area, reach, slope }) => {
+                let flux = self.sum(&surface, slope, None, &mut scratch.own);
+                // Weights by slope may be negative, and so their sum; irradiance is not.
+                Some((flux.map(|flux| flux.max(0.0) / (area * self.emitted_paths)), reach))
             }
             Err(Nothing::Dark) => Some(([0.0; 3], 0.0)),
             Err(Nothing::NoArea) => None,
@@ -121,7 +122,7 @@ impl<'a> RadianceEstimate<'a> {
         self.sort_out(&surface, found, rim, scratch);
         let mut reach = disc.reach();
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
-        if edges == Edges::Cut && radius_squared.is_finite() && !scratch.strangers.is_empty() {
+        if edges != Edges::Ignored && radius_squared.is_finite() && !scratch.strangers.is_empty() {
             disc.cut(&scratch.strangers);
             reach = disc.reach();
             if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
@@ -131,12 +132,13 @@ impl<'a> RadianceEstimate<'a> {
                 scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
             }
         }
-        Ok(Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface })
+        let slope = if edges == Edges::Sloped { Slope::of(&disc, kernel) } else { None };
+        Ok(Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface, slope })
     }
 
     /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
     fn sort_out(&self, surface: &Surface, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
-        let wanted = self.options.edges == Edges::Cut;
+        let wanted = self.options.edges != Edges::Ignored;
         scratch.own.clear();
         scratch.strangers.clear();
         for (distance, id) in found.iter() {
@@ -171,6 +173,8 @@ struct Lit {
     area: f64,
     /// As far as no edge is, in scene units.
     reach: f64,
+    /// How photons weigh by where they are, if not all alike.
+    slope: Option<Slope>,
 }
 
 /// Why there is no area that photons light.

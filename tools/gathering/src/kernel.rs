@@ -44,6 +44,18 @@ impl Kernel {
         }
     }
 
+    /// Integrals of `weight(s) s^(1 + n) ds` from the middle to `r`, for n = 0, 1, 2.
+    pub(super) fn radial_moments(self, r: f64) -> [f64; 3] {
+        let square = r * r;
+        let [two, three, four] = [square / 2.0, square * r / 3.0, square * square / 4.0];
+        let [five, six] = [square * square * r / 5.0, square * square * square / 6.0];
+        match self {
+            Self::Constant => [two, three, four],
+            Self::Cone => [two - three, three - four, four - five],
+            Self::Epanechnikov => [two - four, three - five, four - six],
+        }
+    }
+
     /// Integral of the weight over the right-angled triangle from the middle along a perpendicular of length `d`, up to
     /// an angle whose tangent is `tangent` (negative for the other side): the antiderivative of
     /// `weight(s) s ds` up to `d / cos`, over the angle.

@@ -19,6 +19,8 @@ pm_registry::choices! {
     pub enum Edges {
         /// The part of the photons' disc on this side of the edges that photons round the corner show
         Cut = "cut",
+        /// As cut, and photons of a cut disc are weighed so that light that falls off towards an edge is not found too bright
+        Sloped = "sloped",
         /// The whole disc, as in the textbook: dark at edges
         Ignored = "ignored",
     }

@@ -79,3 +79,40 @@ fn only_what_reaches_the_disc_from_another_side_cuts_it() {
     assert!(!cut(DVec3::new(0.5, -0.01, 0.0), DVec3::NEG_Y));
     assert!(!cut(DVec3::new(0.7, 0.7, 0.0), DVec3::new(-0.8, -0.6, 0.0)));
 }
+
+/// Sum of f over a fine grid of points of the disc, each times the kernel's weight and its area.
+fn over(disc: &Disc, kernel: Kernel, f: impl Fn(DVec3) -> f64) -> f64 {
+    let n = 1000;
+    let at = |i: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+    let points = (0..n * n).map(|i| DVec3::new(at(i % n), 0.0, at(i / n)));
+    let inside = points.filter(|p| p.length() < 1.0 && disc.holds(*p));
+    inside.map(|p| kernel.weight(p.length()) * f(p)).sum::<f64>() * 4.0 / f64::from(n * n)
+}
+
+#[test]
+fn weights_by_slope_find_light_that_slopes_as_it_is_in_the_middle() {
+    let cuts: [&[(f64, f64)]; 5] = [
+        &[(0.0, 77.0)],
+        &[(0.3, 10.0)],
+        &[(0.0, 10.0), (0.1, 100.0)],
+        &[(0.2, -50.0), (0.35, 30.0), (0.6, 170.0)],
+        &[(0.1, 0.0), (0.2, 80.0), (0.3, 160.0), (0.4, 240.0)],
+    ];
+    for cuts in cuts {
+        for kernel in [Kernel::Constant, Kernel::Cone, Kernel::Epanechnikov] {
+            let disc = disc(cuts);
+            let slope = Slope::of(&disc, kernel).expect("a disc that is cut");
+            let area = disc.integral(kernel);
+            // What even light, and such as is 1 in the middle and slopes to 0 and 2 at the rim, is found to be.
+            for gradient in [DVec3::ZERO, DVec3::X, DVec3::Z, DVec3::new(-0.6, 0.0, 0.8)] {
+                let found = over(&disc, kernel, |p| slope.weight(p) * (1.0 + gradient.dot(p))) / area;
+                assert!((found - 1.0).abs() < 0.006, "{cuts:?} {kernel:?} {gradient}: {found}");
+            }
+        }
+    }
+    // At a straight edge all alike would be 4/(3 pi) off.
+    let half = disc(&[(0.0, 0.0)]);
+    let alike = over(&half, Kernel::Constant, |p| 1.0 - p.x) / half.integral(Kernel::Constant);
+    assert!((alike - 1.0 - 4.0 / (3.0 * PI)).abs() < 0.003, "{alike}");
+    assert!(Slope::of(&disc(&[]), Kernel::Constant).is_none());
+}

@@ -1,5 +1,6 @@
 //! Sums over photons, exact or in the order of their ids.
 
+use super::super::disc::Slope;
 use super::super::lobe::Lobe;
 use super::super::surface::Surface;
 use super::{Kernel, RadianceEstimate};
@@ -11,6 +12,7 @@ impl RadianceEstimate<'_> {
     pub(super) fn reflected(
         &self,
         surface: &Surface,
+        slope: Option<Slope>,
         query: &Query,
         material: &Material,
         own: &mut [(u32, f32)],
@@ -19,17 +21,23 @@ impl RadianceEstimate<'_> {
         match Lobe::of(material, query) {
             // Where every photon counts alike the BRDF waits until the powers are summed, exactly.
             None => {
-                let sum = self.sum(surface, None, own);
+                let sum = self.sum(surface, slope, None, own);
                 [0, 1, 2].map(|channel| sum[channel] * diffuse[channel])
             }
-            Some(lobe) => self.sum(surface, Some((&lobe, diffuse)), own),
+            Some(lobe) => self.sum(surface, slope, Some((&lobe, diffuse)), own),
         }
     }
 
-    /// Sum over photons of kernel weight x power, times the BRDF (lobe and diffuse part) if there is one.
-    pub(super) fn sum(&self, surface: &Surface, brdf: Option<(&Lobe, [f64; 3])>, own: &mut [(u32, f32)]) -> [f64; 3] {
+    /// Sum over photons of kernel weight x weight by slope x power, times the BRDF (lobe and diffuse part) if there is one.
+    pub(super) fn sum(
+        &self,
+        surface: &Surface,
+        slope: Option<Slope>,
+        brdf: Option<(&Lobe, [f64; 3])>,
+        own: &mut [(u32, f32)],
+    ) -> [f64; 3] {
         let kernel = self.options.kernel;
-        let exact = self.exact_sums && kernel == Kernel::Constant && brdf.is_none();
+        let exact = self.exact_sums && kernel == Kernel::Constant && brdf.is_none() && slope.is_none();
         if !exact {
             // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
             own.sort_unstable_by_key(|&(id, _)| id);
@@ -40,6 +48,10 @@ impl RadianceEstimate<'_> {
             let weight = match kernel {
                 Kernel::Constant => 1.0,
                 _ => kernel.weight(f64::from(distance).sqrt() / surface.radius),
+            };
+            let weight = match slope {
+                None => weight,
+                Some(slope) => weight * slope.weight(surface.offset(&self.photons[id as usize])),
             };
             match brdf {
                 None => (0..3).for_each(|channel| sum[channel] += weight * f64::from(power[channel])),
