@@ -72,6 +72,8 @@ fn no_method_lights_a_sealed_room() {
                 let maps = maps.iter().flat_map(|map| [format!("--map {map}"), format!("--map {map} --precomputed")]);
                 ways.extend(maps.map(|way| &*way.leak()));
                 ways.extend([
+                    "--edges sloped",
+                    "--edges sloped --precomputed",
                     "--kernel cone",
                     "--kernel epanechnikov --precomputed",
                     "--estimator classic --precomputed",
