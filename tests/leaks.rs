@@ -68,7 +68,7 @@ fn no_method_lights_a_sealed_room() {
             folder.run(&format!("pm-queries -q two-rooms.obj {dark} {queries} {base} -o q.pmq")).ok();
             let mut ways = vec!["", "--precomputed", "--precomputed --precomputed-share 1", "-k 10 --precomputed"];
             if queries == "--gathers 9" {
-                let maps = ["bucket-kd", "vvh", "kdb", "grid", "brute"];
+                let maps = pm_maps::structures().words();
                 let maps = maps.iter().flat_map(|map| [format!("--map {map}"), format!("--map {map} --precomputed")]);
                 ways.extend(maps.map(|way| &*way.leak()));
                 ways.extend([
