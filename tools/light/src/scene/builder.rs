@@ -168,6 +168,7 @@ impl Builder {
             warnings.say(format!("{files}: {turned} triangles are wound against their vn; vn tells their front"));
         }
         let mut lost = self.keep_used_materials();
+        self.passed_over.extend(warnings.under("mtllib ").map(str::to_owned));
         if lost.is_empty() && !self.passed_over.is_empty() {
             lost = format!(" (passed over: {})", self.passed_over.join("; "));
         }

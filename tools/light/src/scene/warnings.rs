@@ -42,6 +42,14 @@ impl Warnings {
         self.said.push((text, 1));
     }
 
+    /// What was said under keys that begin so.
+    pub(crate) fn under<'a>(&'a self, beginning: &'a str) -> impl Iterator<Item = &'a str> {
+        let mut found: Vec<usize> =
+            self.by_key.iter().filter(|(key, _)| key.starts_with(beginning)).map(|(_, &i)| i).collect();
+        found.sort_unstable();
+        found.into_iter().map(|i| &*self.said[i].0)
+    }
+
     /// The remarks in the order in which their causes first occurred.
     pub(crate) fn into_lines(self) -> Vec<String> {
         let line = |(text, count)| match count {

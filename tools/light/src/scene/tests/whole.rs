@@ -47,6 +47,15 @@ fn lamps_that_are_passed_over_are_named() {
     );
 }
 
+/// Is a library named that is not there, where nothing emits light?
+#[test]
+fn libraries_that_are_not_there_are_named_where_nothing_emits() {
+    let obj = format!("mtllib gone.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n");
+    let dark = load_files(&[("t.obj", obj.as_bytes())], &LoadOptions::default()).unwrap_err().to_string();
+    let said = "t.obj: nothing emits light (passed over: t.obj:1: material library \"gone.mtl\": no such file; ";
+    assert!(dark.starts_with(said) && dark.ends_with("give a material `Ke`, or add a light by --quad-light"), "{dark}");
+}
+
 /// Is a lamp without an area no lamp?
 #[test]
 fn lamp_without_area_is_no_light() {
