@@ -76,6 +76,7 @@ fn threads_change_no_byte_of_a_stream() {
         "pm-gather --map brute --start-radius 0.01 map.pmp q.pmq",
         "pm-gather --carry map.pmp q.pmq",
         "pm-gather --map bucket-kd --carry --start-radius inf map.pmp q.pmq",
+        "pm-gather --map wide --carry map.pmp q.pmq",
         "pm-gather --map kd --layout veb --pad map.pmp q.pmq",
         "pm-gather --map vvh map.pmp q.pmq",
         "pm-gather --map kdb map.pmp q.pmq",
@@ -90,7 +91,7 @@ fn threads_change_no_byte_of_a_stream() {
         same_for_any_threads(&folder, line, <[u8]>::to_vec);
     }
     // Those above, which are maps of every structure but of a grid of fixed cells; and any other.
-    for map in &maps(["kd", "bucket-kd", "vvh", "kdb", "grid", "block-hash", "brute"])[7..] {
+    for map in &maps(["kd", "bucket-kd", "wide", "vvh", "kdb", "grid", "block-hash", "brute"])[8..] {
         same_for_any_threads(&folder, &format!("pm-gather --map {map} map.pmp q.pmq"), <[u8]>::to_vec);
     }
     for order in GENERATIVE {
@@ -202,6 +203,7 @@ fn every_order_makes_the_same_searches() {
         "kd --layout veb --pad",
         "kd --reread",
         "bucket-kd",
+        "wide",
         "vvh",
         "kdb",
         "grid",
@@ -249,6 +251,10 @@ fn the_picture_is_the_same_to_the_last_bit() {
         "--map bucket-kd",
         "--map bucket-kd --line 320 --carry --start-radius inf -t 3",
         "--map bucket-kd --layout veb --line 32",
+        "--map wide",
+        "--map wide --carry -t 2",
+        "--map wide --start-radius inf",
+        "--map wide --start-radius 1e-5 --carry",
         "--map vvh",
         "--map kdb --fill 0.6",
         "--map kdb --pages boxes --line 256 --carry",
@@ -285,7 +291,7 @@ fn what_is_carried_changes_the_reads_and_not_the_searches() {
     folder.run("pm-reorder hilbert q.pmq -o h.pmq").ok();
     let trace = |options: &str| searches(&folder.run(&format!("pm-gather map.pmp h.pmq {options}")).ok().stdout);
     let reads = |searches: &[Search]| searches.iter().map(|search| search.accesses.len()).sum::<usize>();
-    for map in ["--map kd", "--map bucket-kd"] {
+    for map in ["--map kd", "--map bucket-kd", "--map wide"] {
         let (plain, carried) =
             (trace(&format!("{map} --start-radius inf")), trace(&format!("{map} --start-radius inf --carry")));
         assert_eq!(plain.len(), carried.len());

@@ -3,6 +3,19 @@
 use super::geometry::distance_squared;
 use super::{AccessObserver, Nearest, PhotonMap, Search};
 
+/// What is known of a search's answer beforehand, as radii in scene units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// All photons within this are among the k nearest; negative if nothing is known.
+    pub(super) inside: f32,
+    /// At least k photons lie within this.
+    pub(super) enough: f32,
+}
+
+impl Known {
+    pub(super) const NOTHING: Self = Self { inside: -1.0, enough: f32::INFINITY };
+}
+
 /// What the search before says of the next: the photons found for one point lie about another as well.
 ///
 /// The k nearest photons of a point q' lie within r of it, so at least k lie within |q - q'| + r of q: the next search
@@ -15,12 +28,14 @@ pub struct Carry {
 }
 
 impl Carry {
-    /// A radius within which k photons lie about `point`; infinite if none is known.
-    fn sure(&self, point: [f32; 3]) -> f32 {
-        let Some((last, radius)) = self.last else { return f32::INFINITY };
+    /// What is known about `point`: fewer than k photons lie nearer than r - |q - q'|, and k within r + |q - q'|.
+    fn known(&self, point: [f32; 3]) -> Known {
+        let Some((last, radius)) = self.last else { return Known::NOTHING };
         let between = distance_squared(last, point).sqrt();
         // Each of the numbers is rounded by parts of 2^-22 at most, or is so small that its square is not exact.
-        (between + radius) * 1.000_01 + 1e-18
+        let enough = (between + radius) * 1.000_01 + 1e-18;
+        let inside = if radius > between { (radius - between) - (radius + between) * 1e-5 - 1e-18 } else { -1.0 };
+        Known { inside, enough }
     }
 
     /// Finds the photons nearest to `point` as [`Search::run`] does, starting from what the search before knew.
@@ -33,7 +48,7 @@ impl Carry {
         found: &mut Nearest,
         eyes: &mut impl AccessObserver,
     ) -> u32 {
-        let attempts = search.run_within(self.sure(point), map, point, found, eyes);
+        let attempts = search.run_within(self.known(point), map, point, found, eyes);
         self.last = found.farthest().filter(|_| found.is_full()).map(|(distance, _)| (point, distance.sqrt()));
         attempts
     }

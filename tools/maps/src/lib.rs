@@ -55,6 +55,7 @@ mod structure;
 mod structures;
 pub mod trial;
 mod vvh;
+mod wide;
 
 pub use accuracy::Accuracy;
 pub use any_map::AnyMap;
@@ -76,6 +77,7 @@ pub use start_radius::StartRadius;
 pub use structure::{Setting, Structure};
 pub use structures::{LINE, structures};
 pub use vvh::VvhTree;
+pub use wide::{Instructions, WideTree};
 
 #[cfg(test)]
 mod stability;

@@ -1,5 +1,7 @@
 //! The k nearest so far.
 
+use crate::wide::Candidates;
+
 /// Keeps the k nearest of the photons it is shown, within a bound that shrinks once there are k.
 ///
 /// Candidates are single integers, distance bits above the photon id: for non-negative floats the bits order as the
@@ -9,6 +11,12 @@ pub struct Nearest {
     /// Unordered until there are k; then a max-heap.
     keys: Vec<u64>,
     bound: f32,
+    /// Photons at most so far, squared, are sure to be among the k nearest; negative if nothing is known.
+    floor: f32,
+    /// The farthest, where the nearest were selected at the end.
+    settled: Option<u64>,
+    /// Room for those who select at the end.
+    pub(crate) candidates: Candidates,
 }
 
 impl Nearest {
@@ -19,14 +27,50 @@ impl Nearest {
     #[must_use]
     pub fn new(k: usize, bound: f32) -> Self {
         assert!(k > 0, "the nearest 0 photons are no question");
-        Self { k, keys: Vec::with_capacity(k.min(1 << 16)), bound }
+        Self {
+            k,
+            keys: Vec::with_capacity(k.min(1 << 16)),
+            bound,
+            floor: -1.0,
+            settled: None,
+            candidates: Candidates::default(),
+        }
     }
 
     /// Forgets all photons and starts again with this bound on the squared distance.
     #[inline]
     pub fn restart(&mut self, bound: f32) {
+        self.restart_between(-1.0, bound);
+    }
+
+    /// The same, where photons whose squared distance is at most `floor` are sure to be among the k nearest.
+    #[inline]
+    pub fn restart_between(&mut self, floor: f32, bound: f32) {
         self.keys.clear();
         self.bound = bound;
+        self.floor = floor;
+        self.settled = None;
+    }
+
+    /// Squared distance up to which photons are sure to be among the nearest; negative if nothing is known.
+    #[inline(always)]
+    #[must_use]
+    pub const fn floor(&self) -> f32 {
+        self.floor
+    }
+
+    /// Takes the nearest as they were selected, at most k, and the key of the farthest: those that were shown before are
+    /// forgotten, and no more may be shown before the next start.
+    #[inline(always)]
+    pub(crate) fn settle(&mut self, distances: &[f32], ids: &[u32], farthest: u64) {
+        debug_assert!(distances.len() <= self.k);
+        self.keys.clear();
+        let pairs = distances.iter().zip(ids);
+        self.keys.extend(pairs.map(|(distance, &id)| u64::from(distance.to_bits()) << 32 | u64::from(id)));
+        self.settled = Some(farthest);
+        if self.is_full() {
+            self.bound = distance_of(farthest);
+        }
     }
 
     /// Largest squared distance that a photon may still have.
@@ -114,8 +158,12 @@ impl Nearest {
     /// Squared distance and id of the farthest photon found.
     #[must_use]
     pub fn farthest(&self) -> Option<(f32, u32)> {
-        let key = if self.is_full() { self.keys.first() } else { self.keys.iter().max() };
-        key.map(|&key| (distance_of(key), id_of(key)))
+        let key = match self.settled {
+            Some(farthest) => (!self.keys.is_empty()).then_some(farthest),
+            None if self.is_full() => self.keys.first().copied(),
+            None => self.keys.iter().max().copied(),
+        };
+        key.map(|key| (distance_of(key), id_of(key)))
     }
 
     /// The photons found, in no particular order, as squared distance and id.

@@ -41,7 +41,7 @@ pub trait PhotonMap: Send + Sync {
         None
     }
 
-    /// Adds to `found` the photons nearest to `point`, within its bound.
+    /// Finds the photons nearest to `point`, within the bound of `found`, which holds none before.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver);
 }
 

@@ -1,5 +1,6 @@
 //! One search with its radii: a limit, which is part of the answer, and a hint where to start, which is not.
 
+use super::carry::Known;
 use super::{AccessObserver, Nearest, PhotonMap};
 
 /// How photons are searched for.
@@ -31,19 +32,20 @@ impl Search {
         found: &mut Nearest,
         eyes: &mut impl AccessObserver,
     ) -> u32 {
-        self.run_within(f32::INFINITY, map, point, found, eyes)
+        self.run_within(Known::NOTHING, map, point, found, eyes)
     }
 
-    /// As [`run`](Self::run), where k photons are known to lie within `sure`, in scene units.
+    /// As [`run`](Self::run), where something is known of the answer.
     #[inline]
     pub(super) fn run_within(
         &self,
-        sure: f32,
+        known: Known,
         map: &(impl PhotonMap + ?Sized),
         point: [f32; 3],
         found: &mut Nearest,
         eyes: &mut impl AccessObserver,
     ) -> u32 {
+        let sure = known.enough;
         // An approximate map reads no less for a smaller radius, and may never find k photons.
         let start = match map.is_exact() {
             // A hint a little below what is sure to do would seldom save much and sometimes fail.
@@ -54,7 +56,7 @@ impl Search {
         let mut radius = start.min(self.max_dist);
         let mut attempts = 1;
         loop {
-            found.restart(radius * radius);
+            found.restart_between(known.inside * known.inside.abs(), radius * radius);
             map.nearest(point, found, eyes);
             // With all photons in hand a larger radius finds no more.
             if found.is_full() || radius >= self.max_dist || found.len() == map.len() {

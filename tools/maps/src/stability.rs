@@ -14,11 +14,12 @@ const N: usize = 2000;
 const K: usize = 50;
 
 /// Maps by the options that ask for them; the last two are approximate.
-const MAPS: [(&str, &str); 9] = [
+const MAPS: [(&str, &str); 10] = [
     ("kd", "kd"),
     ("kd veb", "kd --layout veb --pad"),
     ("bucket-kd", "bucket-kd"),
     ("bucket 320", "bucket-kd --line 320"),
+    ("wide", "wide"),
     ("vvh", "vvh"),
     ("kdb", "kdb"),
     ("grid", "grid"),

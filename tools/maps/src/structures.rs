@@ -8,6 +8,7 @@ mod grid_fixed;
 mod kd;
 mod kdb;
 mod vvh;
+mod wide;
 
 use super::{Layout, Structure};
 use pm_registry::{Domain, Parameter, Registry, words_of};
@@ -20,6 +21,7 @@ pub fn structures() -> Registry<dyn Structure> {
         &[
             &kd::Kd,
             &bucket_kd::BucketKd,
+            &wide::Wide,
             &vvh::Vvh,
             &kdb::Kdb,
             &grid::Grid,

@@ -4,7 +4,7 @@ use super::LAYOUT;
 use crate::{AnyMap, BucketKdTree, BuildError, Setting, Structure};
 
 pm_registry::registered! {
-    /// kd-tree of split planes, apart from photon leaves of one line: the fast one
+    /// kd-tree of split planes, apart from photon leaves of one line
     pub struct BucketKd = "bucket-kd" with [LAYOUT];
 }
 

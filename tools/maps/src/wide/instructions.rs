@@ -1,0 +1,165 @@
+//! Which instructions a search is made of. The one place of this crate that says `unsafe`.
+//!
+//! The search is written once, in plain loops over sixteen lanes that compilers turn into vector code for whatever
+//! instructions the function around them may use. Two things are beyond them and are said in intrinsics: the mask of a
+//! comparison, and packing the lanes of a mask. Measured (450,000 photons, k = 100, Hilbert order): see `tools/README.md`.
+#![expect(unsafe_code, reason = "functions for instructions that not every machine has, called where they are there")]
+
+use super::candidates::Candidates;
+use super::kernels::{Kernels, Plain};
+use super::search::search;
+use super::{WIDTH, WideTree};
+use crate::{AccessObserver, Nearest};
+
+/// Kinds of instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instructions {
+    /// What every machine has.
+    Plain,
+    /// AVX2, eight lanes.
+    Avx2,
+    /// AVX-512, sixteen lanes.
+    Avx512,
+}
+
+impl Instructions {
+    /// All of them, plain ones first.
+    pub const ALL: [Self; 3] = [Self::Plain, Self::Avx2, Self::Avx512];
+
+    /// The best that this machine has.
+    #[must_use]
+    pub fn best() -> Self {
+        Self::ALL.into_iter().rfind(|instructions| instructions.are_there()).unwrap_or(Self::Plain)
+    }
+
+    /// Whether this machine has them.
+    #[must_use]
+    pub fn are_there(self) -> bool {
+        match self {
+            Self::Plain => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                Self::Avx2.are_there()
+                    && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// Searches by these instructions.
+    #[inline]
+    pub(super) fn search(self, tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
+            Self::Avx512 => unsafe { x86::avx512(tree, point, found, eyes) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            Self::Avx2 => unsafe { x86::avx2(tree, point, found, eyes) },
+            _ => search::<Plain>(tree, point, found, eyes),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::*;
+    use std::arch::x86_64::*;
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
+    pub(super) fn avx512(tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        search::<Avx512>(tree, point, found, eyes);
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub(super) fn avx2(tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        search::<Avx2>(tree, point, found, eyes);
+    }
+
+    /// Sixteen lanes.
+    struct Avx512;
+
+    impl Kernels for Avx512 {
+        #[inline(always)]
+        fn within(distances: &[f32; WIDTH], bound: f32) -> u32 {
+            // SAFETY: only `avx512` searches by these kernels.
+            unsafe {
+                let distances = _mm512_loadu_ps(distances.as_ptr());
+                u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(distances, _mm512_set1_ps(bound)))
+            }
+        }
+
+        #[inline(always)]
+        fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mask: u32) {
+            let at = candidates.len;
+            let (to_distances, to_ids) = (&mut candidates.distances[at..][..WIDTH], &mut candidates.ids[at..][..WIDTH]);
+            // SAFETY: only `avx512` searches by these kernels; each slice has sixteen elements.
+            unsafe {
+                let packed = _mm512_maskz_compress_ps(mask as u16, _mm512_loadu_ps(distances.as_ptr()));
+                _mm512_storeu_ps(to_distances.as_mut_ptr(), packed);
+                let packed = _mm512_maskz_compress_epi32(mask as u16, _mm512_loadu_si512(ids.as_ptr().cast()));
+                _mm512_storeu_si512(to_ids.as_mut_ptr().cast(), packed);
+            }
+            candidates.len = at + mask.count_ones() as usize;
+        }
+    }
+
+    /// Twice eight lanes.
+    struct Avx2;
+
+    /// Which lanes a mask of eight packs to the front.
+    static PACK: [[u32; 8]; 256] = {
+        let mut table = [[0; 8]; 256];
+        let mut mask = 0;
+        while mask < 256 {
+            let (mut lane, mut number) = (0, 0);
+            while lane < 8 {
+                if mask >> lane & 1 == 1 {
+                    table[mask][number] = lane;
+                    number += 1;
+                }
+                lane += 1;
+            }
+            mask += 1;
+        }
+        table
+    };
+
+    impl Kernels for Avx2 {
+        #[inline(always)]
+        fn within(distances: &[f32; WIDTH], bound: f32) -> u32 {
+            // SAFETY: only `avx2` searches by these kernels; both halves lie within the array.
+            unsafe {
+                let bound = _mm256_set1_ps(bound);
+                let first = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_loadu_ps(distances.as_ptr()), bound);
+                let second = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_loadu_ps(distances.as_ptr().add(8)), bound);
+                _mm256_movemask_ps(first) as u32 | (_mm256_movemask_ps(second) as u32) << 8
+            }
+        }
+
+        #[inline(always)]
+        fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mask: u32) {
+            for half in 0..2 {
+                let (from, mask) = (8 * half, (mask >> (8 * half) & 255) as usize);
+                let at = candidates.len;
+                let to_distances = &mut candidates.distances[at..][..8];
+                let to_ids = &mut candidates.ids[at..][..8];
+                // SAFETY: only `avx2` searches by these kernels; the slices have eight elements, and so have the halves.
+                unsafe {
+                    let order = _mm256_loadu_si256(PACK[mask].as_ptr().cast());
+                    let packed = _mm256_permutevar8x32_ps(_mm256_loadu_ps(distances.as_ptr().add(from)), order);
+                    _mm256_storeu_ps(to_distances.as_mut_ptr(), packed);
+                    let these = _mm256_loadu_si256(ids.as_ptr().add(from).cast());
+                    _mm256_storeu_si256(to_ids.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(these, order));
+                }
+                candidates.len = at + mask.count_ones() as usize;
+            }
+        }
+    }
+}
