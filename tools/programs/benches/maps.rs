@@ -13,7 +13,7 @@ use common::{cpu_time, median, morton, surface_point};
 use pm_formats::Photon;
 use pm_maps::{
     AccessObserver, AnyMap, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest,
-    PageForm, PhotonMap, Search, SearchReads, VvhTree,
+    PageForm, PhotonMap, Search, SearchReads, VvhTree, WideTree,
 };
 use pm_random::Random;
 use std::hint::black_box;
@@ -50,6 +50,7 @@ struct Maps {
     vvh: VvhTree,
     kdb: KdbTree,
     grid: Grid,
+    wide: WideTree,
     search: Search,
 }
 
@@ -63,6 +64,7 @@ impl Maps {
             vvh: VvhTree::build(photons, K, 128).unwrap(),
             kdb: KdbTree::build(photons, kdb).unwrap(),
             grid: Grid::build(photons, Cells::Indirect).unwrap(),
+            wide: WideTree::build(photons).unwrap(),
             search: Search::new(K, f32::INFINITY).fit_start(&kd, photons),
             kd,
         }
@@ -90,6 +92,8 @@ impl Maps {
             ("vvh", Box::new(|| run(&self.vvh, search, points, &mut Blind))),
             ("kdb", Box::new(|| run(&self.kdb, search, points, &mut Blind))),
             ("grid", Box::new(|| run(&self.grid, search, points, &mut Blind))),
+            ("wide", Box::new(|| run(&self.wide, search, points, &mut Blind))),
+            ("wide, carried", Box::new(|| run_carried(&self.wide, search, points))),
         ];
         let mut times = vec![Vec::new(); contestants.len()];
         let mut results = vec![0.0; contestants.len()];
