@@ -1,11 +1,10 @@
 //! The k nearest so far.
 
-use crate::wide::Candidates;
+use crate::candidates::Candidates;
 
 /// Keeps the k nearest of the photons it is shown, within a bound that shrinks once there are k.
 ///
-/// Candidates are single integers, distance bits above the photon id: for non-negative floats the bits order as the
-/// numbers do, so one comparison orders by distance and then by id.
+/// Candidates are single integers, their [`rank`]s, so one comparison orders by distance and then by id.
 pub struct Nearest {
     k: usize,
     /// Unordered until there are k; then a max-heap.
@@ -66,7 +65,7 @@ impl Nearest {
         debug_assert!(distances.len() <= self.k);
         self.keys.clear();
         let pairs = distances.iter().zip(ids);
-        self.keys.extend(pairs.map(|(distance, &id)| u64::from(distance.to_bits()) << 32 | u64::from(id)));
+        self.keys.extend(pairs.map(|(&distance, &id)| rank(distance, id)));
         self.settled = Some(farthest);
         if self.is_full() {
             self.bound = distance_of(farthest);
@@ -85,7 +84,7 @@ impl Nearest {
     pub fn show(&mut self, distance_squared: f32, id: u32) {
         // Also false for NaN.
         if distance_squared <= self.bound {
-            let key = u64::from(distance_squared.to_bits()) << 32 | u64::from(id);
+            let key = rank(distance_squared, id);
             if self.keys.len() < self.k {
                 self.keys.push(key);
                 if self.keys.len() == self.k {
@@ -180,13 +179,22 @@ impl Nearest {
     }
 }
 
-#[inline]
-fn distance_of(key: u64) -> f32 {
+/// One integer that orders photons by squared distance, then id: for non-negative floats the bits order as the numbers do.
+#[inline(always)]
+#[must_use]
+pub const fn rank(distance_squared: f32, id: u32) -> u64 {
+    (distance_squared.to_bits() as u64) << 32 | id as u64
+}
+
+/// The squared distance in a [`rank`].
+#[inline(always)]
+pub(crate) const fn distance_of(key: u64) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
-#[inline]
-const fn id_of(key: u64) -> u32 {
+/// The id in a [`rank`].
+#[inline(always)]
+pub(crate) const fn id_of(key: u64) -> u32 {
     key as u32
 }
 

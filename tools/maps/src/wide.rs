@@ -7,22 +7,18 @@
 //! AVX2, plain loops) that find the same to the last bit.
 
 mod build;
-mod candidates;
 mod instructions;
 mod kernels;
 mod search;
 mod select;
 
-pub(crate) use candidates::Candidates;
 pub use instructions::Instructions;
 
+use crate::candidates::WIDTH;
 use crate::error::check;
 use crate::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
-
-/// Children of a node, and photons of a leaf.
-pub(crate) const WIDTH: usize = 16;
 
 /// Number of the region that holds the nodes.
 const NODES: u16 = 0;

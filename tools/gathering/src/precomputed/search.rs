@@ -2,8 +2,8 @@
 
 use super::{PrecomputedIrradiance, Site};
 use crate::surface::{coarse, on_same_surface};
-use pm_maps::AccessObserver;
 use pm_maps::geometry::distance_squared;
+use pm_maps::{AccessObserver, rank};
 
 /// Deepest tree of at most 2^30 nodes, and one more.
 const MAX_DEPTH: usize = 32;
@@ -29,9 +29,7 @@ impl PrecomputedIrradiance<'_> {
     /// the bound is small as early as can be.
     pub(super) fn nearest(&self, point: [f32; 3], normal: [f32; 3], eyes: &mut impl AccessObserver) -> Option<usize> {
         let count = self.sites.len();
-        // Distance bits above the id: for non-negative floats the bits order as the numbers do.
-        let key = |distance: f32, id: u32| u64::from(distance.to_bits()) << 32 | u64::from(id);
-        let (mut nearest, mut best) = (None, key(self.bound, u32::MAX));
+        let (mut nearest, mut best) = (None, rank(self.bound, u32::MAX));
         let mut bound = self.bound;
         // Second children yet to be looked at, with the squared distance to the plane before them.
         let mut waiting = [(0u32, 0f32); MAX_DEPTH];
@@ -43,7 +41,7 @@ impl PrecomputedIrradiance<'_> {
             let distance = distance_squared(point, site.position);
             // Not `<`: one as far as the nearest may have the smaller id. Also false for NaN.
             if distance <= bound {
-                let mine = key(distance, self.ids[at - 1]);
+                let mine = rank(distance, self.ids[at - 1]);
                 if mine < best && site.knows(point, normal, distance) {
                     (nearest, best, bound) = (Some(at - 1), mine, distance);
                 }

@@ -1,7 +1,7 @@
 //! Where the bytes of a scene's files come from.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Files by their names: a file system, an archive, or what is built into a program. Closures are such as well.
 pub trait Files {
@@ -26,4 +26,11 @@ impl Files for FileSystem {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
         std::fs::read(path)
     }
+}
+
+/// Where a file may be that another, `of`, names, with `/` between folders: beside it as the name says, or else by its bare
+/// name. Exporters write paths of the machine they ran on: what they name often lies beside the file all the same.
+pub(super) fn places(of: &Path, name: &str) -> Vec<PathBuf> {
+    let bare = name.rsplit_once('/').map(|(_, bare)| bare).filter(|bare| !bare.is_empty());
+    [name].into_iter().chain(bare).map(|name| of.with_file_name("").join(name)).collect()
 }

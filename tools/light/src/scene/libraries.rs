@@ -4,7 +4,7 @@
 //! path that the file had on the machine they ran on.
 
 use super::error::{FileLine, SceneError};
-use super::files::Files;
+use super::files::{Files, places};
 use super::statements::Statement;
 use super::warnings::Warnings;
 use std::io;
@@ -72,18 +72,21 @@ pub(super) fn named(
 
 /// A library of this name beside the OBJ, or of its bare name if it is the path of another machine.
 fn look(obj: &Path, name: &str, at_line: &FileLine, files: &dyn Files, warnings: &mut Warnings) -> io::Result<Library> {
-    let beside = |name: &str| obj.with_file_name("").join(name);
     let name = name.replace('\\', "/");
-    let path = beside(&name);
-    let error = match files.read(&path) {
-        Ok(bytes) => return Ok((path, bytes)),
-        Err(error) => error,
-    };
-    let Some((_, bare)) = name.rsplit_once('/').filter(|(_, bare)| !bare.is_empty()) else { return Err(error) };
-    let path = beside(bare);
-    let Ok(bytes) = files.read(&path) else { return Err(error) };
-    warnings.say(format!("{at_line}: there is no {name:?}; {} is taken for it", path.display()));
-    Ok((path, bytes))
+    let mut error = None;
+    for path in places(obj, &name) {
+        match files.read(&path) {
+            Ok(bytes) => {
+                if error.is_some() {
+                    warnings.say(format!("{at_line}: there is no {name:?}; {} is taken for it", path.display()));
+                }
+                return Ok((path, bytes));
+            }
+            // Why the name itself cannot be read says more than why its end cannot.
+            Err(why) => error = error.or(Some(why)),
+        }
+    }
+    Err(error.unwrap_or_else(|| io::ErrorKind::NotFound.into()))
 }
 
 /// Where the words of a list of names are, up to a comment; what stands in quotes is one word.

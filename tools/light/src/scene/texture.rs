@@ -2,7 +2,7 @@
 
 mod mean;
 
-use super::files::Files;
+use super::files::{Files, places};
 use mean::mean;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,9 +17,7 @@ pub(crate) fn mean_colour(
     known: &mut HashMap<PathBuf, Texture>,
 ) -> Texture {
     let name = file_name(statement).trim_matches('"').replace('\\', "/");
-    // Exporters write paths of the machine they ran on: the image is often beside the library all the same.
-    let bare = name.rsplit('/').next().unwrap_or(&name);
-    let places = [&name, bare].map(|name| mtl.with_file_name("").join(name));
+    let places = places(mtl, &name);
     if let Some(texture) = places.iter().find_map(|path| known.get(path)) {
         return texture.clone();
     }
@@ -29,7 +27,10 @@ pub(crate) fn mean_colour(
             let texture = mean(&path, &bytes);
             (path, texture)
         }
-        None => (places[0].clone(), Err(format!("{bare:?} cannot be read"))),
+        None => {
+            let bare = name.rsplit('/').next().unwrap_or(&name);
+            (places[0].clone(), Err(format!("{bare:?} cannot be read")))
+        }
     };
     known.insert(path, texture.clone());
     texture

@@ -5,10 +5,10 @@
 //! comparison, and packing the lanes of a mask. `cargo bench -p pm-programs --bench maps` compares the times.
 #![expect(unsafe_code, reason = "functions for instructions that not every machine has, called where they are there")]
 
-use super::candidates::Candidates;
 use super::kernels::{Kernels, Plain};
 use super::search::search;
 use super::{WIDTH, WideTree};
+use crate::candidates::Candidates;
 use crate::{AccessObserver, Nearest};
 
 /// Kinds of instructions.

@@ -5,8 +5,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes, which compilers turn into vector code")]
 
-use super::candidates::Candidates;
 use super::{Boxes, Leaf, WIDTH};
+use crate::candidates::Candidates;
 
 /// The lanes of a node or of a leaf.
 pub(super) trait Kernels {

@@ -3,6 +3,7 @@
 use super::kernels::{Kernels, box_distances, leaf_distances};
 use super::select::{select, shrink};
 use super::{LEAVES, NODES, WIDTH, WideTree};
+use crate::nearest::distance_of;
 use crate::{AccessObserver, Nearest};
 
 /// Levels of the largest tree: 2^30 photons in leaves of 16, and 16 children a node.
@@ -41,7 +42,7 @@ pub(super) fn search<K: Kernels>(
                 let distances = leaf_distances(leaf, point);
                 K::append(candidates, &distances, &leaf.id, K::within(&distances, bound));
                 if candidates.len > candidates.most() {
-                    bound = bound.min(f32::from_bits((shrink(candidates, k) >> 32) as u32));
+                    bound = bound.min(distance_of(shrink(candidates, k)));
                 }
             }
         } else {

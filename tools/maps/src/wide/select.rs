@@ -1,10 +1,10 @@
 //! The k nearest of the candidates, without a heap: a distance is guessed, what lies within it is counted, and the few
 //! about the k-th are told apart at the end.
 
-use super::WIDTH;
-use super::candidates::Candidates;
 use super::kernels::Kernels;
 use crate::Nearest;
+use crate::candidates::{Candidates, WIDTH};
+use crate::nearest::{distance_of, id_of, rank};
 
 /// Guesses by interpolation before halves are taken.
 const GUESSES: usize = 8;
@@ -103,7 +103,7 @@ fn part<K: Kernels>(candidates: &mut Candidates, k: usize, sure: Counted, all: C
     let (distances, ids) = shell.lanes(0);
     let mut keys = [u64::MAX; WIDTH];
     for lane in 0..shell.len {
-        keys[lane] = key(distances[lane], ids[lane]);
+        keys[lane] = rank(distances[lane], ids[lane]);
     }
     let wanted = (k - candidates.len) as u64;
     let (mut chosen, mut last) = (0, 0);
@@ -137,25 +137,19 @@ fn farthest(candidates: &Candidates) -> u64 {
         let id = if candidates.distances[at] == most { candidates.ids[at] } else { 0 };
         largest = if id > largest { id } else { largest };
     }
-    key(most, largest)
+    rank(most, largest)
 }
 
 /// Keeps the k nearest of many candidates, whatever they are; the last of them.
 #[cold]
 pub(super) fn shrink(candidates: &mut Candidates, k: usize) -> u64 {
     let pairs = candidates.distances[..candidates.len].iter().zip(&candidates.ids);
-    let mut keys: Vec<u64> = pairs.map(|(&distance, &id)| key(distance, id)).collect();
+    let mut keys: Vec<u64> = pairs.map(|(&distance, &id)| rank(distance, id)).collect();
     keys.select_nth_unstable(k - 1);
     for (at, key) in keys[..k].iter().enumerate() {
-        candidates.distances[at] = f32::from_bits((key >> 32) as u32);
-        candidates.ids[at] = *key as u32;
+        candidates.distances[at] = distance_of(*key);
+        candidates.ids[at] = id_of(*key);
     }
     candidates.len = k;
     keys[k - 1]
-}
-
-/// Orders by distance, then id.
-#[inline(always)]
-fn key(distance: f32, id: u32) -> u64 {
-    u64::from(distance.to_bits()) << 32 | u64::from(id)
 }
