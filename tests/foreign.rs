@@ -115,7 +115,7 @@ fn exports_of_a_gathered_trace_and_pipes() {
 fn faults_are_one_line_and_leave_nothing() {
     let folder = Folder::with_streams();
     folder.run("pm-gather map.pmp q.pmq -o t.pmt").ok();
-    folder.write("bad.din", "0 10\n0 xyz\n");
+    folder.write("bad.din", "0 1a\n0 xyz\n");
     let fault = folder.run("pm-cachesim bad.din");
     same_text("fault", "pm-cachesim: bad.din: line 2: `xyz` is no hexadecimal number", fault.fails(3));
     assert!(fault.stdout.is_empty());

@@ -10,6 +10,7 @@ mod export;
 mod exporter;
 mod formats;
 mod import;
+mod known;
 mod open;
 mod pages;
 mod pieces;

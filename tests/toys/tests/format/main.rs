@@ -41,7 +41,7 @@ fn an_example_that_says_something_else_is_found() {
 }
 
 #[test]
-#[should_panic(expected = "csv: what its example is taken for")]
+#[should_panic(expected = "din: what its example is taken for")]
 fn a_format_that_takes_others_for_its_own_is_found() {
     trial::imports(&traces::imports().with(&Grabs));
 }

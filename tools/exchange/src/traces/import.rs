@@ -17,7 +17,14 @@ pub trait TraceImport: Registered + Sync {
         match self.shape() {
             EntryShape::Line => Recognition::FirstLine,
             EntryShape::Record { .. } => Recognition::ByName,
+            EntryShape::Headed { .. } => Recognition::Signature,
         }
+    }
+
+    /// Has an input that begins so the signature of the format? Then it is of this format, whatever it is said to be.
+    fn signs(&self, beginning: &[u8]) -> bool {
+        let _ = beginning;
+        false
     }
 
     /// What understands its entries, one after another from the first of an input.
@@ -38,11 +45,24 @@ pub type ParserOfColumns = fn(&[String]) -> Result<Box<dyn EntryParser>, BadQues
 
 /// Understands the entries of one input, in their order.
 pub trait EntryParser {
-    /// The entry in these bytes: a line without its end, or a record.
+    /// What the header says, if the input has one: how many bytes a record has.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    fn header(&mut self, header: &[u8]) -> Result<usize, String> {
+        Err(format!("{} bytes of a header that the format has not", header.len()))
+    }
+
+    /// The entry in these bytes, a line without its end or a record: the first access that it tells of.
     ///
     /// # Errors
     /// What is wrong with it, in words.
     fn parse(&mut self, entry: &[u8]) -> Parsed;
+
+    /// The next access of the same entry, if it tells of several.
+    fn rest(&mut self) -> Option<Reference> {
+        None
+    }
 }
 
 impl<F: FnMut(&[u8]) -> Parsed> EntryParser for F {
@@ -54,12 +74,17 @@ impl<F: FnMut(&[u8]) -> Parsed> EntryParser for F {
 /// What entries are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryShape {
-    /// A line of text.
+    /// A line of text; empty ones are passed over.
     Line,
     /// A record of a fixed length.
     Record {
         /// Its length.
         bytes: usize,
+    },
+    /// A header of so many bytes, and then records of the length that it says.
+    Headed {
+        /// Bytes of the header.
+        header: usize,
     },
 }
 
@@ -76,10 +101,10 @@ impl EntryShape {
 pub enum Recognition {
     /// It has to be named: any bytes might be meant, those of a damaged stream of ours too.
     ByName,
-    /// By its first line that is no comment, which is one of no other format.
+    /// By its first bytes, which no input of another kind has.
+    Signature,
+    /// By its first lines; if they fit another format just as well, it has to be named.
     FirstLine,
-    /// The same, where the first line of another format might be one of this: after all others.
-    FirstLineAtLast,
 }
 
 /// Bytes of an access whose entry does not say.

@@ -3,26 +3,59 @@
 use super::{Recognition, TraceImport};
 use pm_registry::Registry;
 
-/// The format of a text that begins so, if it is one of these: those that mistake no other for their own come first.
-pub(super) fn recognise(beginning: &[u8], imports: &Registry<dyn TraceImport>) -> Option<&'static dyn TraceImport> {
-    let tried = |how| imports.iter().filter(move |import| import.recognition() == how);
-    let mut tried = tried(Recognition::FirstLine).chain(tried(Recognition::FirstLineAtLast));
-    tried.find(|import| begins_as(*import, beginning))
+/// What a beginning tells.
+pub(super) enum Recognised {
+    /// It is of no format that is known.
+    Unknown,
+    /// It is of this format.
+    Known(&'static dyn TraceImport),
+    /// It may be of any of these.
+    Doubtful(Vec<&'static dyn TraceImport>),
 }
 
-/// Whether the beginning of an input is that of a format: its first line that is no comment is one of the format's.
-fn begins_as(import: &dyn TraceImport, beginning: &[u8]) -> bool {
-    let mut parser = import.parser();
-    let mut comments = false;
-    for line in beginning.split(|&byte| byte == b'\n') {
-        if line.iter().any(|&byte| byte.is_ascii_control() && !b"\t\r".contains(&byte)) {
-            return false;
+/// The format of which the beginning of an input has the signature.
+pub(super) fn signed(beginning: &[u8], imports: &Registry<dyn TraceImport>) -> Option<&'static dyn TraceImport> {
+    imports.iter().find(|import| import.signs(beginning))
+}
+
+/// The format of a text that begins so: the one that understands its lines for longest. `whole` says that nothing follows.
+pub(super) fn recognise(beginning: &[u8], whole: bool, imports: &Registry<dyn TraceImport>) -> Recognised {
+    let mut lines: Vec<&[u8]> = beginning.split(|&byte| byte == b'\n').collect();
+    if !whole && lines.len() > 1 {
+        // Its end is not there.
+        lines.pop();
+    }
+    let mut longest = 0;
+    let mut fitting = vec![];
+    for import in imports.iter().filter(|import| import.recognition() == Recognition::FirstLine) {
+        let understood = understood(import, &lines);
+        if understood > longest {
+            longest = understood;
+            fitting.clear();
         }
-        match parser.parse(line) {
-            Ok(Some(_)) => return true,
-            Ok(None) => comments |= !line.trim_ascii().is_empty(),
-            Err(_) => return false,
+        if understood == longest && longest > 0 {
+            fitting.push(import);
         }
     }
-    comments
+    match fitting[..] {
+        [] => Recognised::Unknown,
+        [one] => Recognised::Known(one),
+        _ => Recognised::Doubtful(fitting),
+    }
+}
+
+/// How many lines a format understands before the first that is none of its own; 0 if there is no entry among them while
+/// a line is wrong, or if there are only empty ones.
+fn understood(import: &dyn TraceImport, lines: &[&[u8]]) -> usize {
+    let mut parser = import.parser();
+    let (mut entries, mut comments) = (0, 0);
+    for (number, line) in lines.iter().enumerate().filter(|(_, line)| !line.trim_ascii().is_empty()) {
+        let text = !line.iter().any(|&byte| byte.is_ascii_control() && !b"\t\r".contains(&byte));
+        match parser.parse(line) {
+            Ok(Some(_)) if text => entries += 1,
+            Ok(None) if text => comments += 1,
+            _ => return if entries > 0 { number } else { 0 },
+        }
+    }
+    if entries + comments > 0 { lines.len() } else { 0 }
 }

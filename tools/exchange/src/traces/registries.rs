@@ -1,6 +1,8 @@
 //! The formats of traces there are: a line each.
 
-use super::formats::{Csv, Din, Dinb, Dramsim3, Lackey, OracleGeneral, Ramulator2, Raw32, Raw64, Xdin};
+use super::formats::{
+    Csv, Din, Dinb, Dramsim3, Lackey, Lcs, OracleGeneral, Ramulator2, RamulatorCpu, Raw32, Raw64, Xdin,
+};
 use super::{TraceExport, TraceImport};
 use pm_registry::Registry;
 
@@ -9,7 +11,20 @@ use pm_registry::Registry;
 pub fn imports() -> Registry<dyn TraceImport> {
     Registry::new(
         "format of traces that is read",
-        &[&Raw32, &Raw64, &Din, &Xdin, &Dinb, &Lackey, &OracleGeneral, &Csv, &Dramsim3, &Ramulator2],
+        &[
+            &Raw32,
+            &Raw64,
+            &Din,
+            &Xdin,
+            &Dinb,
+            &Lackey,
+            &OracleGeneral,
+            &Lcs,
+            &Csv,
+            &Dramsim3,
+            &RamulatorCpu,
+            &Ramulator2,
+        ],
     )
 }
 

@@ -42,7 +42,11 @@ pub fn assumed_sizes(imports: &Registry<dyn TraceImport>) -> String {
     }
     let said = sizes.iter().map(|(size, words)| {
         let word = if size.aligned { " and the address that of a word" } else { "" };
-        format!("{} {}{word}, ", words.join(" and "), size.bytes)
+        let words = match words.split_last() {
+            Some((last, others)) if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+            _ => words.concat(),
+        };
+        format!("{words} {}{word}, ", size.bytes)
     });
     said.collect::<String>() + "others 1"
 }
@@ -60,7 +64,7 @@ mod tests {
 
     #[test]
     fn sizes_are_told_by_those_that_have_them() {
-        let said = "din 4 and the address that of a word, dramsim3 and ramulator2 64, others 1";
+        let said = "din 4 and the address that of a word, dramsim3, ramulator-cpu and ramulator2 64, others 1";
         assert_eq!(super::assumed_sizes(&imports()), said);
     }
 }

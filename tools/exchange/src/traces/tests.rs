@@ -7,6 +7,8 @@ use pm_formats::{Header, MAGIC};
 use proptest::prelude::*;
 use std::io::{Cursor, Write as _};
 
+mod misread;
+
 #[derive(Default)]
 struct Heard(Vec<Access>);
 
@@ -93,7 +95,11 @@ fn binary_formats_are_named_and_never_guessed() {
 #[test]
 fn options_change_what_an_entry_means() {
     let sized = Reading { access_size: Some(8), ..plain(None) };
-    assert_eq!(read(b"0 1003\n", &sized).unwrap().1, [(R, 0x1003, 8)], "as it stands, not as a word");
+    assert_eq!(
+        read(b"0 1003\n", &Reading { access_size: Some(8), ..plain(Some("din")) }).unwrap().1,
+        [(R, 0x1003, 8)],
+        "as it stands, not as a word"
+    );
     assert_eq!(read(b"17,4\n", &sized).unwrap().1, [(R, 17, 8)]);
     let lines = Reading { address_unit: 128, ..plain(None) };
     assert_eq!(read(b"17\n", &lines).unwrap().1, [(R, 17 * 128, 1)]);
@@ -114,11 +120,11 @@ fn options_change_what_an_entry_means() {
 #[test]
 fn faults_are_told_with_their_line() {
     for (text, expected) in [
-        ("0 10\n0 1g\n", "line 2: `1g` is no hexadecimal number"),
-        ("0 10\n\n", "line 2: `` is not a label and an address"),
-        ("0 10\n4 10\n", "line 2: label 4 tells a cache"),
-        ("0 10\n9 10\n", "line 2: label 9 is none of"),
-        ("0 10\n0 10000000000000000\n", "line 2: `10000000000000000` does not fit 64 bits"),
+        ("0 1a\n0 1g\n", "line 2: `1g` is no hexadecimal number"),
+        ("0 1a\n\n0\n", "line 3: `0` is not a label and an address"),
+        ("0 1a\n4 10\n", "line 2: label 4 tells a cache"),
+        ("0 1a\n9 10\n", "line 2: label 9 is none of"),
+        ("0 1a\n0 10000000000000000\n", "line 2: `10000000000000000` does not fit 64 bits"),
         (" L 10,4\nhello\n", "line 2: `hello` is no line of lackey"),
         (" L 10,4\n L 10,4294967296\n", "line 2: an access of 4294967296 bytes"),
         (" L 10,4\n L ffffffffffffffff,2\n", "line 2: 2 bytes at address 0xffffffffffffffff x 1 reach beyond"),

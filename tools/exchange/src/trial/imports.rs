@@ -67,11 +67,16 @@ fn it_is_recognised_as_it_says(import: &dyn TraceImport, imports: &Registry<dyn 
     let word = import.word();
     let found = trace_in(import.example().input, &Reading::plain(), imports);
     match (import.shape(), import.recognition()) {
-        (EntryShape::Record { .. }, how) => {
+        (EntryShape::Record { .. } | EntryShape::Headed { .. }, Recognition::Signature) => {
+            let named = found.map(|trace| trace.format().word());
+            assert_eq!(named, Ok(word), "{word}: what its example is taken for");
+            the_signature_is_heeded(import, imports);
+        }
+        (EntryShape::Record { .. } | EntryShape::Headed { .. }, how) => {
             assert_eq!(how, Recognition::ByName, "{word}: a binary format has no first line");
             assert!(found.is_err(), "{word}: a binary format that was not named was guessed");
         }
-        (EntryShape::Line, Recognition::ByName) => {
+        (EntryShape::Line, Recognition::ByName | Recognition::Signature) => {
             let named = found.map(|trace| trace.format().word());
             assert_ne!(named, Ok(word), "{word}: recognised, though it has to be named");
         }
@@ -82,17 +87,37 @@ fn it_is_recognised_as_it_says(import: &dyn TraceImport, imports: &Registry<dyn 
     }
 }
 
+/// Whatever else the input is said to be, it is refused, and the error says what it is.
+fn the_signature_is_heeded(import: &dyn TraceImport, imports: &Registry<dyn TraceImport>) {
+    let word = import.word();
+    for other in imports.iter().filter(|other| other.word() != word) {
+        let found = trace_in(import.example().input, &Reading::plain().of(other), imports).err();
+        let expected = format!("--input {}, but the input is {word}: leave --input out", other.word());
+        assert_eq!(found, Some(expected), "{word}: given for another");
+    }
+}
+
 fn a_cut_record_is_an_error(import: &'static dyn TraceImport, imports: &Registry<dyn TraceImport>) {
     let (word, input) = (import.word(), import.example().input);
-    if let EntryShape::Record { bytes } = import.shape() {
-        assert!(input.len().is_multiple_of(bytes), "{word}: its example is no number of records of {bytes} bytes");
-        for cut in input.len() - bytes + 1..input.len() {
-            let found = trace_in(&input[..cut], &Reading::plain().of(import), imports).err();
-            let said = found.unwrap_or_default();
-            let expected =
-                format!("record {}: the input ends after {} of its {bytes} bytes", input.len() / bytes, cut % bytes);
-            assert_eq!(said, expected, "{word}: a record that is cut");
+    let (header, bytes) = match import.shape() {
+        EntryShape::Line => return,
+        EntryShape::Record { bytes } => (0, bytes),
+        EntryShape::Headed { header } => {
+            for cut in [header - 1, header / 2, 8] {
+                let said = trace_in(&input[..cut], &Reading::plain().of(import), imports).err().unwrap_or_default();
+                let expected = format!("the header: the input ends after {cut} of its {header} bytes");
+                assert_eq!(said, expected, "{word}: a header that is cut");
+            }
+            (header, import.parser().header(&input[..header]).expect("the header of its example"))
         }
+    };
+    let records = input.len() - header;
+    assert!(records.is_multiple_of(bytes), "{word}: its example is no number of records of {bytes} bytes");
+    for cut in records - bytes + 1..records {
+        let found = trace_in(&input[..header + cut], &Reading::plain().of(import), imports).err();
+        let said = found.unwrap_or_default();
+        let expected = format!("record {}: the input ends after {} of its {bytes} bytes", records / bytes, cut % bytes);
+        assert_eq!(said, expected, "{word}: a record that is cut");
     }
 }
 
@@ -114,7 +139,8 @@ fn no_bytes_make_it_panic(import: &'static dyn TraceImport, imports: &Registry<d
         // Not sizes of their own: gigabytes of pages take their time.
         let reading = Reading { access_size: Some(4), ..Reading::plain().of(import) };
         if let Err(fault) = trace_in(&input, &reading, imports) {
-            let placed = ["line ", "record ", "the compressed input"].iter().any(|place| fault.starts_with(place));
+            let placed =
+                ["line ", "record ", "the header", "the compressed input"].iter().any(|place| fault.starts_with(place));
             assert!(placed, "{}: an error without its place: {fault}", import.word());
         }
     }

@@ -7,7 +7,7 @@ use crate::BadQuestion;
 use crate::traces::text::{number, quoted, size};
 use crate::traces::{
     AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, ParserOfColumns, Piece,
-    PieceWriter, Recognition, Reference, TraceExport, TraceImport, Unwritten,
+    PieceWriter, Reference, TraceExport, TraceImport, Unwritten,
 };
 use pm_formats::trace::AccessKind;
 use std::io::{self, Write};
@@ -106,11 +106,6 @@ impl TraceImport for Csv {
 
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize::BYTE)
-    }
-
-    fn recognition(&self) -> Recognition {
-        // A line with a number is a trace already.
-        Recognition::FirstLineAtLast
     }
 
     fn parser(&self) -> Box<dyn EntryParser> {
