@@ -96,7 +96,7 @@ include scripts/coverage.mk
 
 TAKEN += scenes
 
-scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere
+scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere gap) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere, room with a gap
 
 out/scenes/%.obj: $(call made_with,PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-scene $* -q -o out/scenes
@@ -120,7 +120,7 @@ bench: ## Speed, as ratios measured side by side
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder sample gather cachesim chart view scene sweep; do \
+	for program in photons queries reorder sample gather cachesim chart view scene picture sweep; do \
 	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
 	done
 

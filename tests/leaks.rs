@@ -1,7 +1,9 @@
 //! Does a sealed dark room stay dark beside a lit one, whatever the method?
 
 use crate::support::Folder;
+use pm_gathering::{Edges, Estimator, Kernel};
 use pm_pictures::{Picture, Region, RegionMean};
+use pm_registry::Choice;
 use std::fmt::Write as _;
 
 /// Two rooms that share floor, ceiling, front and back, with a wall between them so thick (m); if 0 it is a single sheet. The
@@ -48,6 +50,11 @@ fn lit(folder: &Folder) -> f64 {
     mean(folder, "lit.exr")
 }
 
+/// An option with each of its words.
+fn words<T: Choice>(option: &str) -> impl Iterator<Item = String> {
+    T::ALL.iter().map(move |named| format!("--{option} {}", named.word))
+}
+
 #[test]
 fn no_method_lights_a_sealed_room() {
     // Catches: sites of the lit room that answer queries of the dark one; photons behind a wall that count.
@@ -71,13 +78,10 @@ fn no_method_lights_a_sealed_room() {
                 let maps = pm_maps::structures().words();
                 let maps = maps.iter().flat_map(|map| [format!("--map {map}"), format!("--map {map} --precomputed")]);
                 ways.extend(maps.map(|way| &*way.leak()));
-                ways.extend([
-                    "--edges sloped",
-                    "--edges sloped --precomputed",
-                    "--kernel cone",
-                    "--kernel epanechnikov --precomputed",
-                    "--estimator classic --precomputed",
-                ]);
+                let options =
+                    words::<Edges>("edges").chain(words::<Kernel>("kernel")).chain(words::<Estimator>("estimator"));
+                let options = options.flat_map(|way| [format!("{way} --precomputed"), format!("{way} -k 10"), way]);
+                ways.extend(options.map(|way| &*way.leak()));
             }
             for way in ways {
                 folder.run(&format!("pm-gather -q map.pmp q.pmq {way} {base} --image x.exr --no-trace")).ok();

@@ -23,6 +23,7 @@ mod pictures;
 mod pipes;
 mod precomputed;
 mod readme;
+mod recipes;
 mod scenes;
 mod situations;
 mod slopes;

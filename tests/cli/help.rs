@@ -44,7 +44,8 @@ fn the_examples_are_asked_rightly() {
         // Long lines are wrapped; what does not begin with a program goes on the line before.
         let unwrapped = format!("\n{examples}").replace("\n  pm-", "|pm-").replace('\n', " ");
         for part in unwrapped.split('|').map(str::trim).filter(|part| !part.is_empty()) {
-            let has_scene = part.starts_with("pm-photons") || part.starts_with("pm-queries");
+            let has_scene =
+                part.starts_with("pm-photons") || part.starts_with("pm-queries") || part.starts_with("pm-picture");
             let mut line = format!("{part}{}", if has_scene { " nosuch.obj" } else { "" });
             if part.starts_with("pm-scene") {
                 // The only one that needs nothing to read: it shall have nowhere to write.

@@ -118,18 +118,23 @@ impl<'a> RadianceEstimate<'a> {
         }
         let radius_squared = f64::from(radius_squared);
         let surface = Surface { position: Vec3::from(position).as_dvec3(), normal, radius: radius_squared.sqrt() };
-        let mut disc = Disc::new(Vec3::from(normal).as_dvec3());
+        let whole = || Disc::new(Vec3::from(normal).as_dvec3());
+        let mut disc = whole();
         self.sort_out(&surface, found, rim, scratch);
         let mut reach = disc.reach();
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
-        if edges != Edges::Ignored && radius_squared.is_finite() && !scratch.strangers.is_empty() {
+        if radius_squared.is_finite() && !scratch.strangers.is_empty() {
             disc.cut(&scratch.strangers);
             reach = disc.reach();
             if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
-                disc = Disc::new(Vec3::from(normal).as_dvec3());
+                disc = whole();
             }
             if !disc.is_whole() {
                 scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
+            }
+            // Light behind a wall does not count, whatever the area.
+            if edges == Edges::Ignored {
+                disc = whole();
             }
         }
         let slope = if edges == Edges::Sloped { Slope::of(&disc, kernel) } else { None };
@@ -138,7 +143,6 @@ impl<'a> RadianceEstimate<'a> {
 
     /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
     fn sort_out(&self, surface: &Surface, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
-        let wanted = self.options.edges != Edges::Ignored;
         scratch.own.clear();
         scratch.strangers.clear();
         for (distance, id) in found.iter() {
@@ -146,7 +150,7 @@ impl<'a> RadianceEstimate<'a> {
                 if Some(id) != rim {
                     scratch.own.push((id, distance));
                 }
-            } else if wanted {
+            } else {
                 let photon = &self.photons[id as usize];
                 let normal = Vec3::from(photon.normal()).as_dvec3();
                 scratch.strangers.push(Stranger { rank: (distance, id), offset: surface.offset(photon), normal });

@@ -21,7 +21,7 @@ pm_registry::choices! {
         Cut = "cut",
         /// As cut, and photons of a cut disc are weighed so that light that falls off towards an edge is not found too bright
         Sloped = "sloped",
-        /// The whole disc, as in the textbook: dark at edges
+        /// The whole disc, as in the textbook, though photons beyond an edge are left out: dark at edges
         Ignored = "ignored",
     }
 }

@@ -5,6 +5,7 @@
 
 mod columns;
 mod fractal;
+mod gap;
 mod grid;
 mod model;
 mod recipe;
@@ -15,13 +16,14 @@ pub use recipe::Recipe;
 
 use columns::Columns;
 use fractal::Fractal;
+use gap::Gap;
 use pm_registry::Registry;
 use sphere::Sphere;
 
 /// All scenes that can be made.
 #[must_use]
 pub fn recipes() -> Registry<dyn Recipe> {
-    Registry::new("scene", &[&Fractal, &Columns, &Sphere])
+    Registry::new("scene", &[&Fractal, &Columns, &Sphere, &Gap])
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ pub mod chart;
 pub mod cli;
 pub mod gather;
 pub mod photons;
+pub mod picture;
+mod pipe;
 pub mod queries;
 pub mod reorder;
 pub mod scene;

@@ -4,7 +4,6 @@ mod derive;
 mod fingerprint;
 mod hold;
 mod join;
-mod pipe;
 mod place;
 mod row;
 mod rules;

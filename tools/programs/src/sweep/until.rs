@@ -1,7 +1,7 @@
 //! `pm-sweep until`: windows of a stream are added until fetches per query are known as well as asked.
 
-use super::pipe::Pipe;
 use crate::cli::{create_output, say, usage};
+use crate::pipe::Pipe;
 use pm_sampling::{Missing, Tuning};
 use pm_sweep::until::Samples;
 use std::io::Write as _;
@@ -54,7 +54,8 @@ const FIRST_ROUND: u64 = 100;
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     let words = |option: &Option<String>| {
         let text = option.as_deref().unwrap_or_default();
-        shlex::split(text).ok_or_else(|| usage(format!("`{text}`: a quote is not closed")))
+        let words = shlex::split(text).ok_or_else(|| usage(format!("`{text}`: a quote is not closed")))?;
+        anyhow::Ok(std::iter::once("-q".to_owned()).chain(words).collect::<Vec<_>>())
     };
     let (queries, gather, cachesim) = (words(&args.queries)?, words(&args.gather)?, words(&args.cachesim)?);
     let reorder = args.reorder.as_ref().map(|_| words(&args.reorder)).transpose()?;

@@ -3,25 +3,26 @@
 use crate::cli::usage;
 use anyhow::{Context as _, bail};
 use pm_exchange::bad_input;
+use std::fmt;
 use std::io::Read as _;
 use std::path::PathBuf;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-/// Programs, each reading what the one before it writes, all quiet.
-pub(super) struct Pipe(Vec<(&'static str, Vec<String>)>);
+/// Programs, each reading what the one before it writes.
+pub(crate) struct Pipe(Vec<(&'static str, Vec<String>)>);
 
 impl Pipe {
-    pub(super) fn new(program: &'static str, arguments: impl IntoIterator<Item = String>) -> Self {
+    pub(crate) fn new(program: &'static str, arguments: impl IntoIterator<Item = String>) -> Self {
         Self(vec![]).then(program, arguments)
     }
 
-    pub(super) fn then(mut self, program: &'static str, arguments: impl IntoIterator<Item = String>) -> Self {
+    pub(crate) fn then(mut self, program: &'static str, arguments: impl IntoIterator<Item = String>) -> Self {
         self.0.push((program, arguments.into_iter().collect()));
         self
     }
 
     /// The last program has these arguments too.
-    pub(super) fn with(mut self, arguments: impl IntoIterator<Item = String>) -> Self {
+    pub(crate) fn with(mut self, arguments: impl IntoIterator<Item = String>) -> Self {
         self.0.last_mut().expect("a program").1.extend(arguments);
         self
     }
@@ -30,13 +31,13 @@ impl Pipe {
     ///
     /// # Errors
     /// If one of them fails; it has said why.
-    pub(super) fn run(&self) -> anyhow::Result<Vec<u8>> {
+    pub(crate) fn run(&self) -> anyhow::Result<Vec<u8>> {
         let folder = folder()?;
         let mut children: Vec<(&str, Child)> = vec![];
         let mut before: Option<ChildStdout> = None;
         for (program, arguments) in &self.0 {
             let mut command = Command::new(folder.join(program));
-            command.arg("-q").args(arguments).stdin(before.take().map_or_else(Stdio::null, Stdio::from));
+            command.args(arguments).stdin(before.take().map_or_else(Stdio::null, Stdio::from));
             let child = command.stdout(Stdio::piped()).spawn();
             let mut child = child.with_context(|| folder.join(program).display().to_string())?;
             before = child.stdout.take();
@@ -56,6 +57,20 @@ impl Pipe {
             }
         }
         Ok(printed)
+    }
+}
+
+/// As it is typed in a shell.
+impl fmt::Display for Pipe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, (program, arguments)) in self.0.iter().enumerate() {
+            write!(f, "{}{program}", if at > 0 { " | " } else { "" })?;
+            for word in arguments {
+                // The one thing that no quoting can hold is a zero byte, which no argument can either.
+                write!(f, " {}", shlex::try_quote(word).map_err(|_| fmt::Error)?)?;
+            }
+        }
+        Ok(())
     }
 }
 
