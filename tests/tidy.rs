@@ -24,7 +24,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     // Never maps: a cache sees accesses only.
     ("caches", &["random", "registry", "sampling", "size", "spool", "formats"]),
     // Never caches: it says what was accessed, not what that costs.
-    ("exchange", &["random", "registry", "spool", "formats"]),
+    ("exchange", &["random", "registry", "formats"]),
     ("report", &["registry", "size"]),
     // Never caches or maps: it knows programs by what they print.
     ("sweep", &["registry", "sampling"]),

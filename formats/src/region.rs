@@ -15,6 +15,9 @@ pub enum Coding {
         /// Each inner node is read a second time when all that is visited below it has been.
         reread: bool,
     },
+    /// The region is all of a 64-bit address space, of which nobody knows beforehand what is touched: traces of other
+    /// programs. Offsets are addresses; blocks are those of the 4 KiB pages that turn out to be touched.
+    Addresses,
 }
 
 /// One region of the traced memory. No two regions of a trace share a 4 KiB page.
@@ -30,6 +33,30 @@ pub struct Region {
     pub record_size: u32,
     /// How accesses to the region are coded in the stream.
     pub coding: Coding,
+}
+
+impl Region {
+    /// All addresses of 64 bits, of a trace whose memory nobody has laid out: the only region of its trace.
+    #[must_use]
+    pub fn addresses(name: impl Into<String>) -> Self {
+        Self { name: name.into(), base: 0, size: u64::MAX, record_size: 1, coding: Coding::Addresses }
+    }
+
+    /// Whether it is all addresses, wherever they lie.
+    #[must_use]
+    pub fn is_addresses(&self) -> bool {
+        self.coding == Coding::Addresses
+    }
+
+    /// Whether `len` bytes at `offset` lie within it; a record of no bytes lies at its offset.
+    #[inline]
+    #[must_use]
+    pub fn holds(&self, offset: u64, len: u32) -> bool {
+        match self.coding {
+            Coding::Addresses => offset.checked_add(u64::from(len.max(1) - 1)).is_some(),
+            _ => offset.checked_add(u64::from(len)).is_some_and(|end| end <= self.size),
+        }
+    }
 }
 
 /// Granularity at which regions are kept apart in the traced address space.
@@ -57,6 +84,12 @@ pub(crate) const MAX_NODES: u32 = (1 << 31) - 1;
 pub(crate) fn check_regions(regions: &[Region]) -> std::result::Result<(), &'static str> {
     if regions.len() > usize::from(u16::MAX) {
         return Err("a trace of more than 65,535 regions");
+    }
+    if let Some(addresses) = regions.iter().find(|region| region.is_addresses()) {
+        return match regions.len() == 1 && *addresses == Region::addresses(addresses.name.clone()) {
+            true => Ok(()),
+            false => Err("a region of all addresses is not all there is"),
+        };
     }
     let mut spans = vec![];
     for region in regions {

@@ -81,7 +81,7 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
                 let len = u32::try_from(take(&mut planes.others)?).ok()?;
                 Access { kind, region: number, len, offset: u64::try_from(last).ok()? }
             };
-            if access.offset.checked_add(u64::from(access.len))? > region.size {
+            if !region.holds(access.offset, access.len) {
                 return None;
             }
             sink.access(access);

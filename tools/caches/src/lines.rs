@@ -3,6 +3,7 @@
 mod accesses;
 mod attributes;
 mod chunk;
+mod places;
 mod space;
 
 pub(crate) use accesses::{AccessBuffer, Accesses, CHUNK};
@@ -10,7 +11,20 @@ pub use attributes::Attributes;
 pub(crate) use attributes::Shape;
 pub use chunk::LineChunk;
 pub(crate) use chunk::{Repeats, Resume};
+pub(crate) use places::{PAGE_SHIFT, Places};
 pub use space::LineSpace;
+
+/// Lines that can be simulated: half of what 32 bits tell apart, so that the times of the LRU stack, one for each line at
+/// least, leave room for time to pass.
+pub(crate) const MAX_LINES: u64 = 1 << 31;
+
+/// Makes room in a table by slot for as many slots as there are now.
+#[inline]
+pub(crate) fn grow<T: Clone>(table: &mut Vec<T>, space: &LineSpace, new: T) {
+    if (table.len() as u64) < space.slots() {
+        table.resize(space.slots() as usize, new);
+    }
+}
 
 #[cfg(test)]
 mod tests;

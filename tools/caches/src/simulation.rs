@@ -4,6 +4,8 @@ mod error;
 mod line_group;
 mod outcome;
 #[cfg(test)]
+mod places_tests;
+#[cfg(test)]
 mod tests;
 
 pub use error::SimulationError;
@@ -14,7 +16,7 @@ use pm_formats::trace::{Access, Region, TraceSink};
 
 use crate::config::check_line;
 use crate::findings::{ResultTraffic, SearchStart};
-use crate::lines::{AccessBuffer, CHUNK};
+use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places};
 use crate::misses::PageSwitches;
 use crate::{CacheConfig, CacheCounts, Measures, RecordCounts};
 use error::check_regions;
@@ -64,6 +66,10 @@ pub struct Simulation {
     queries: u64,
     searches: u64,
     record_counts: Vec<RecordCounts>,
+    /// If the trace is of all addresses: places of pages, by log2 of their bytes.
+    places: BTreeMap<u32, Places>,
+    /// Why nothing more is simulated.
+    fault: Option<SimulationError>,
 }
 
 impl Simulation {
@@ -119,7 +125,11 @@ impl Simulation {
         let group = |(line_bytes, members): (u32, Vec<usize>)| {
             LineGroup::new(line_bytes, &members, &configs, regions, measures)
         };
-        let groups = by_line.into_iter().map(group).collect::<Result<_, _>>()?;
+        let groups = by_line.into_iter().map(group).collect::<Result<Vec<LineGroup>, _>>()?;
+        // Blocks are counted by the usual pages, whatever the lines.
+        let shifts = groups.iter().map(|group| group.page_shift).chain([PAGE_SHIFT]);
+        let of_addresses = regions.iter().any(Region::is_addresses);
+        let places = shifts.filter(|_| of_addresses).map(|shift| (shift, Places::new(shift))).collect();
         Ok(Self {
             regions: regions.to_vec(),
             groups,
@@ -135,19 +145,38 @@ impl Simulation {
             queries: 0,
             searches: 0,
             record_counts: vec![RecordCounts::default(); regions.len()],
+            places,
+            fault: None,
         })
     }
 
     /// Simulates what is waiting.
     #[inline(never)]
     fn flush(&mut self) {
+        if self.fault.is_some() {
+            self.waiting.clear();
+        }
         let accesses = self.waiting.waiting();
-        assert!(accesses.are_within(&self.regions), "the trace's reader let through an access outside of its region");
+        // Where all addresses are, places are found for no others.
+        let within = !self.places.is_empty() || accesses.are_within(&self.regions);
+        assert!(within, "the trace's reader let through an access outside of its region");
         if !self.warm_up {
             accesses.count(&mut self.record_counts);
         }
-        for group in &mut self.groups {
-            group.run(&accesses, !self.warm_up, &self.starts);
+        if self.places.is_empty() {
+            for group in &mut self.groups {
+                group.run(&accesses, !self.warm_up, &self.starts);
+            }
+        }
+        for (&shift, places) in &mut self.places {
+            places.take(&accesses, self.measures.span);
+            for group in self.groups.iter_mut().filter(|group| group.page_shift == shift) {
+                group.space.extend(places.pages());
+                match group.space.check() {
+                    Ok(()) => group.run(&places.placed(&accesses), !self.warm_up, &[]),
+                    Err(error) => self.fault = Some(error),
+                }
+            }
         }
         if let Some(pages) = &mut self.record_pages {
             accesses.reads().for_each(|(region, offset, len)| {
@@ -157,6 +186,15 @@ impl Simulation {
         }
         self.waiting.clear();
         self.starts.clear();
+    }
+
+    /// Whether all went well so far: only a trace of all addresses can turn out to have too many lines.
+    ///
+    /// # Errors
+    ///
+    /// If it has. What is found is then worthless.
+    pub fn check(&self) -> Result<(), SimulationError> {
+        self.fault.clone().map_or(Ok(()), Err)
     }
 
     /// From now on, what the first cache fetches is kept for [`take_fetched`](Self::take_fetched).
@@ -192,7 +230,8 @@ impl TraceSink for Simulation {
     }
 
     fn search(&mut self, destinations: &[u32]) {
-        if !self.warm_up {
+        // Nobody knows what a search is where nobody knows the addresses.
+        if !self.warm_up && self.places.is_empty() {
             self.searches += 1;
             self.queries += destinations.len() as u64;
             if self.measures.working_sets {

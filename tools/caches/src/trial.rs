@@ -13,6 +13,7 @@
 //! Traces are random, the same on every run: of several regions, with records that span lines, writes, warm-up, and uses of
 //! the same line one after another. What is right is told by the policy's own [`Definition`].
 
+mod addresses;
 mod bounds;
 mod caches;
 mod definition;
@@ -21,6 +22,7 @@ mod invariance;
 mod naive;
 mod special_cases;
 
+pub use addresses::addresses_may_lie_anywhere;
 pub use bounds::{counts_add_up, no_policy_fetches_less_than_the_optimum};
 pub use definition::{Definition, FullSet, HeldLine};
 pub use invariance::{
@@ -36,6 +38,8 @@ pub use special_cases::{
 use pm_registry::Registry;
 
 use crate::Policy;
+#[cfg(test)]
+pub(crate) use addresses::{pages, wild_events};
 pub(crate) use events::{Draw, Event, random_events, random_regions, replay, simulate};
 #[cfg(test)]
 pub(crate) use {
@@ -51,6 +55,7 @@ pub fn all(policies: &Registry<dyn Policy>) {
     words_are_read_as_they_are_printed(policies);
     the_first_access_may_be_to_address_zero(policies);
     counts_are_those_of_the_definition(policies);
+    addresses_may_lie_anywhere(policies);
     fetches_are_told_as_they_happen(policies);
     repeats_are_left_out_only_where_they_do_not_matter(policies);
     chunks_one_after_another_are_the_whole(policies);

@@ -79,6 +79,9 @@ impl Windows {
             unknown: vec![0; regions.len()],
             windows: vec![],
         };
+        if regions.iter().any(Region::is_addresses) {
+            return Err(WindowError::Addresses);
+        }
         let line_sizes: BTreeSet<u32> = configs.iter().map(CacheConfig::line_bytes).collect();
         // Which finds out whether the regions are too large.
         let simulation = Simulation::measuring(regions, configs, &measures)?;

@@ -2,8 +2,8 @@
 //!
 //! A format is a file in `formats`, which knows what one entry looks like, and a line in [`imports`], in [`exports`] or in
 //! both. Reading makes a [`Trace`], which replays into the same sinks as a trace of ours; writing is an [`Exporter`], itself
-//! such a sink. What a foreign trace does not have: searches, so nothing is per query, and regions: these are the 4 KiB pages
-//! it touches, at their addresses.
+//! such a sink. What a foreign trace does not have: searches, so nothing is per query, and regions: there is one, which is
+//! all addresses.
 
 mod entries;
 mod export;
@@ -12,7 +12,6 @@ mod formats;
 mod import;
 mod known;
 mod open;
-mod pages;
 mod pieces;
 mod reading;
 mod recognise;
@@ -29,7 +28,7 @@ pub use import::{AssumedSize, EntryParser, EntryShape, Example, ParserOfColumns,
 pub use open::{Opened, open};
 pub use pieces::Piece;
 pub use reading::{Reading, References};
-pub use reference::{EntryKind, Parsed, Reference};
+pub use reference::{EntryKind, Numbered, Parsed, Reference};
 pub use registries::{exports, imports};
 pub use table::{assumed_sizes, table};
 pub use trace::Trace;

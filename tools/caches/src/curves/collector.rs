@@ -28,10 +28,11 @@ impl CurveCollector {
         Self { distances, accesses: Histogram::default(), dirt: vec![], dirtied: Histogram::default() }
     }
 
-    /// Runs the line accesses of `chunk`; `counted` is false during warm-up, when only the state changes.
+    /// Runs the line accesses of `chunk`, below `slots`; `counted` is false during warm-up, when only the state changes.
     pub(crate) fn run(&mut self, slots: u64, chunk: &LineChunk, counted: bool) {
-        if chunk.writes() && self.dirt.is_empty() {
-            self.dirt = vec![CLEAN; slots as usize];
+        self.distances.grow(slots);
+        if chunk.writes() || !self.dirt.is_empty() {
+            self.dirt.resize(slots as usize, CLEAN);
         }
         // An access that repeats the one before may be left out of the chunk; its distance is 0.
         self.accesses.reserve(1);

@@ -13,7 +13,7 @@
 
 use super::sampled_curve::PARTS;
 use super::{Histogram, SampledCurve, StackDistances, TraceCounts};
-use crate::lines::LineChunk;
+use crate::lines::{LineChunk, LineSpace};
 use pm_random::Random;
 
 /// Not a sampled line.
@@ -26,8 +26,8 @@ struct Sample {
 }
 
 impl Sample {
-    fn new(lines: u64) -> Self {
-        Self { distances: StackDistances::new(lines), accesses: Histogram::default() }
+    fn new() -> Self {
+        Self { distances: StackDistances::new(0), accesses: Histogram::default() }
     }
 
     #[inline]
@@ -50,12 +50,17 @@ impl Sample {
 /// Collects the sampled curve of one line size.
 pub(crate) struct Shards {
     rate: f64,
+    hashes: Random,
+    /// Slots of which it is decided whether they are in the sample.
+    lines: u64,
     /// By slot: a bit for each line sampled. Small, so that what is not sampled costs little.
     sampled: Vec<u64>,
     /// By slot: its number in the sample.
     numbers: Vec<u32>,
     /// By number in the sample: its part and its number there.
     parts: Vec<(u8, u32)>,
+    /// Lines of each part.
+    sizes: [u32; PARTS],
     sample: Sample,
     samples: Vec<Sample>,
     /// Scratch: sampled slots of the chunk.
@@ -63,32 +68,56 @@ pub(crate) struct Shards {
 }
 
 impl Shards {
-    /// The curve of lines numbered below `slots`, from a share of `rate` of them, above 0 and at most 1.
-    pub(crate) fn new(slots: u64, rate: f64) -> Self {
-        let limit = (rate * 2_f64.powi(32)) as u64;
-        let mut sampled = vec![0_u64; slots.div_ceil(64) as usize];
-        let mut numbers = vec![NOT_SAMPLED; slots as usize];
-        let mut parts = vec![];
-        let mut sizes = [0_u32; PARTS];
-        // A line's hash is its number in this sequence, whatever the trace.
-        let mut hashes = Random::new(&[]);
-        for slot in 0..slots {
-            let hash = hashes.next_u64();
+    /// The curve of the lines of `space`, from a share of `rate` of them, above 0 and at most 1.
+    pub(crate) fn new(space: &LineSpace, rate: f64) -> Self {
+        let mut shards = Self {
+            rate,
+            hashes: Random::new(&[]),
+            lines: 0,
+            sampled: vec![],
+            numbers: vec![],
+            parts: vec![],
+            sizes: [0; PARTS],
+            sample: Sample::new(),
+            samples: (0..PARTS).map(|_| Sample::new()).collect(),
+            kept: vec![],
+        };
+        shards.grow(space);
+        shards
+    }
+
+    /// Decides of the lines that are new whether they are in the sample.
+    fn grow(&mut self, space: &LineSpace) {
+        let limit = (self.rate * 2_f64.powi(32)) as u64;
+        self.sampled.resize(space.slots().div_ceil(64) as usize, 0);
+        self.numbers.resize(space.slots() as usize, NOT_SAMPLED);
+        for slot in self.lines..space.slots() {
+            // Where slots are in order of addresses a line's hash is its number in this sequence, whatever the trace; where
+            // they are in order of first touches it is that of its address.
+            let hash = match space.grows() {
+                false => self.hashes.next_u64(),
+                true => Random::new(&[space.line(0, slot as u32)]).next_u64(),
+            };
             if hash >> 32 < limit {
-                sampled[(slot / 64) as usize] |= 1 << (slot % 64);
-                numbers[slot as usize] = parts.len() as u32;
+                self.sampled[(slot / 64) as usize] |= 1 << (slot % 64);
+                self.numbers[slot as usize] = self.parts.len() as u32;
                 let part = (hash as u32 as usize) % PARTS;
-                parts.push((part as u8, sizes[part]));
-                sizes[part] += 1;
+                self.parts.push((part as u8, self.sizes[part]));
+                self.sizes[part] += 1;
             }
         }
-        let sample = Sample::new(parts.len() as u64);
-        let samples = sizes.into_iter().map(|lines| Sample::new(lines.into())).collect();
-        Self { rate, sampled, numbers, parts, sample, samples, kept: vec![] }
+        self.lines = space.slots();
+        self.sample.distances.grow(self.parts.len() as u64);
+        for (sample, &lines) in self.samples.iter_mut().zip(&self.sizes) {
+            sample.distances.grow(lines.into());
+        }
     }
 
     /// Runs the line accesses of `chunk`; `counted` is false during warm-up.
-    pub(crate) fn run(&mut self, chunk: &LineChunk, counted: bool) {
+    pub(crate) fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool) {
+        if self.lines < space.slots() {
+            self.grow(space);
+        }
         let slots = chunk.slots();
         self.kept.resize(self.kept.len().max(slots.len()), 0);
         let mut kept = 0;

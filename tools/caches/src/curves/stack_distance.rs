@@ -33,6 +33,11 @@ const FIRST_TIME: u32 = FIRST_FRAME + TOP;
 /// Bits in the row for each line there may be: the more, the seldomer bits are moved, and the farther apart they lie.
 const BITS_PER_LINE: u64 = 4;
 
+/// Bits in the row for so many slots.
+fn bits_for(slots: u64) -> u32 {
+    (slots * BITS_PER_LINE).min(u64::from(u32::MAX - PER_SUPER - FIRST_TIME)) as u32
+}
+
 /// The recency stack of lines, numbered by slot.
 pub(super) struct StackDistances {
     /// The frames, the one used last in the lowest four bits.
@@ -52,8 +57,15 @@ impl StackDistances {
     /// An empty stack for slots below `slots`, at most 2^31.
     pub(super) fn new(slots: u64) -> Self {
         assert!(slots <= 1 << 31);
-        let most = u64::from(u32::MAX - PER_SUPER - FIRST_TIME);
-        Self::with_bits(slots, (slots * BITS_PER_LINE).min(most) as u32)
+        Self::with_bits(slots, bits_for(slots))
+    }
+
+    /// From now on there are so many slots, if they are more.
+    pub(super) fn grow(&mut self, slots: u64) {
+        if (self.places.len() as u64) < slots {
+            self.places.resize(slots as usize, NEVER);
+            self.bits.grow(bits_for(slots).next_multiple_of(PER_SUPER));
+        }
     }
 
     /// The same with at least so many bits in the row, which must be more than there are slots.

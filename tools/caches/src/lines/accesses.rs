@@ -25,6 +25,8 @@ pub(crate) struct AccessBuffer {
 pub(crate) struct Accesses<'a> {
     /// Byte offsets from the bases of the regions.
     pub(crate) offsets: &'a [u64],
+    /// The same of the last bytes where these do not follow from the first, since pages have [`Places`](super::Places).
+    pub(crate) lasts: Option<&'a [u64]>,
     /// Regions, kinds and lengths.
     pub(crate) shapes: &'a [Shape],
     /// The shape that all have, if there is one.
@@ -67,7 +69,7 @@ impl AccessBuffer {
             let differences = shapes.iter().fold(0, |bits, shape| bits | shape.difference(*first));
             differences == 0
         });
-        Accesses { offsets: &self.offsets[self.start..self.end], shapes, common }
+        Accesses { offsets: &self.offsets[self.start..self.end], lasts: None, shapes, common }
     }
 }
 

@@ -58,6 +58,11 @@ impl Shape {
         self.0 as u32
     }
 
+    /// The same with another length.
+    pub(super) fn of_len(self, len: u32) -> Self {
+        Self(self.0 >> 32 << 32 | u64::from(len))
+    }
+
     /// Bits in which two shapes differ.
     #[inline]
     pub(super) fn difference(self, other: Self) -> u64 {

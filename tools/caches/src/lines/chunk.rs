@@ -67,9 +67,11 @@ impl LineChunk {
                 self.attributes.clear();
                 self.attributes.push(shape.attributes());
                 self.attribute_mask = 0;
-                match kept {
-                    false => self.pack::<false, false>(space, accesses, shape),
-                    true => self.pack::<false, true>(space, accesses, shape),
+                match (kept, accesses.lasts) {
+                    (false, None) => self.pack::<false, false, false>(space, accesses, shape),
+                    (true, None) => self.pack::<false, true, false>(space, accesses, shape),
+                    (false, Some(_)) => self.pack::<false, false, true>(space, accesses, shape),
+                    (true, Some(_)) => self.pack::<false, true, true>(space, accesses, shape),
                 }
             }
             None => {
@@ -77,9 +79,12 @@ impl LineChunk {
                 let least = 2 * accesses.shapes.len();
                 self.attributes.resize(self.attributes.len().max(least), Attributes::default());
                 self.attribute_mask = usize::MAX;
-                match kept {
-                    false => self.pack::<true, false>(space, accesses, Shape::default()),
-                    true => self.pack::<true, true>(space, accesses, Shape::default()),
+                let common = Shape::default();
+                match (kept, accesses.lasts) {
+                    (false, None) => self.pack::<true, false, false>(space, accesses, common),
+                    (true, None) => self.pack::<true, true, false>(space, accesses, common),
+                    (false, Some(_)) => self.pack::<true, false, true>(space, accesses, common),
+                    (true, Some(_)) => self.pack::<true, true, true>(space, accesses, common),
                 }
             }
         };
@@ -91,9 +96,9 @@ impl LineChunk {
         true
     }
 
-    /// The line accesses of all records, whose shapes are `MIXED` or all `common`, repeats among them if they are `KEPT`;
-    /// false if one spans more than two lines.
-    fn pack<const MIXED: bool, const KEPT: bool>(
+    /// The line accesses of all records, whose shapes are `MIXED` or all `common`, repeats among them if they are `KEPT`, and
+    /// whose last bytes lie elsewhere than the first if they are `PLACED`; false if one spans more than two lines.
+    fn pack<const MIXED: bool, const KEPT: bool, const PLACED: bool>(
         &mut self,
         space: &LineSpace,
         accesses: &Accesses,
@@ -105,11 +110,18 @@ impl LineChunk {
         let of_slots = &mut self.attributes[..];
         let numbering = if MIXED { Numbering::default() } else { space.regions[common.attributes().region()] };
         let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.attributes()), 0, 0);
-        for (&offset, &shape) in accesses.offsets.iter().zip(accesses.shapes) {
+        let lasts = accesses.lasts.unwrap_or(accesses.offsets);
+        for ((&offset, &last), &shape) in accesses.offsets.iter().zip(lasts).zip(accesses.shapes) {
             let shape = if MIXED { shape } else { common };
             let attributes = shape.attributes();
-            let numbering = if MIXED { space.regions[attributes.region()] } else { numbering };
-            let (first, last) = numbering.ends(space.shift, offset, shape.len() & space.len_mask);
+            let (first, last, more) = if PLACED {
+                let (first, last) = ((offset >> space.shift) as u32, (last >> space.shift) as u32);
+                (first, last, space.more_lines(offset, shape.len()))
+            } else {
+                let numbering = if MIXED { space.regions[attributes.region()] } else { numbering };
+                let (first, last) = numbering.ends(space.shift, offset, shape.len() & space.len_mask);
+                (first, last, last - first)
+            };
             // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
             // where the next one goes, and the place is taken or not.
             slots[len] = first;
@@ -123,8 +135,8 @@ impl LineChunk {
             }
             len += usize::from(last != first);
             before = (last, attributes);
-            extra += u64::from(last - first);
-            most |= last - first;
+            extra += u64::from(more);
+            most |= more;
         }
         (self.len, self.accesses) = (len, records as u64 + extra);
         most <= 1
@@ -139,14 +151,26 @@ impl LineChunk {
         while resume.records < accesses.shapes.len() && self.slots.len() < LONG_CHUNK {
             let at = resume.records;
             let (shape, attributes) = (accesses.shapes[at], accesses.shapes[at].attributes());
-            let (first, last) = space.ends(accesses.offsets[at], shape);
-            let from = first + resume.lines;
-            let to = last.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
-            self.slots.extend(from..=to);
+            let (first, last, more) = match accesses.lasts {
+                Some(lasts) => {
+                    let slot = |place: u64| (place >> space.shift) as u32;
+                    let offset = accesses.offsets[at];
+                    (slot(offset), slot(lasts[at]), space.more_lines(offset, shape.len()))
+                }
+                None => {
+                    let (first, last) = space.ends(accesses.offsets[at], shape);
+                    (first, last, last - first)
+                }
+            };
+            let from = resume.lines;
+            let to = more.min(from + (LONG_CHUNK - self.slots.len()) as u32 - 1);
+            // Where the place behind the page is another's, the lines in the page behind lead up to the last.
+            let of_page = space.rest_of_page(first);
+            self.slots.extend((from..=to).map(|i| if i < of_page { first + i } else { last - (more - i) }));
             self.attributes.resize(self.slots.len(), attributes);
-            *resume = match to == last {
+            *resume = match to == more {
                 true => Resume { records: at + 1, lines: 0 },
-                false => Resume { records: at, lines: to - first + 1 },
+                false => Resume { records: at, lines: to + 1 },
             };
         }
         self.len = self.slots.len();

@@ -2,8 +2,8 @@
 
 use pm_formats::trace::Region;
 
-use super::Shape;
-use crate::SpanRule;
+use super::{MAX_LINES, Shape};
+use crate::{SimulationError, SpanRule};
 
 /// Numbers the lines of all regions without gaps, so that a model can keep a table indexed by line.
 ///
@@ -15,6 +15,8 @@ pub struct LineSpace {
     pub(super) shift: u32,
     pub(super) regions: Vec<Numbering>,
     slots: u64,
+    /// Where lines are numbered by the places of their pages: log2 of the lines of a page, and the pages by place.
+    pages: Option<(u32, Vec<u64>)>,
     /// Bits of a record's length that count: all, or none if only the line of its first byte is touched.
     pub(super) len_mask: u32,
 }
@@ -59,7 +61,35 @@ impl LineSpace {
             previous = previous.max(Some(last));
             numberings[r].delta = delta;
         }
-        Self { shift, regions: numberings, slots, len_mask: u32::MAX }
+        Self { shift, regions: numberings, slots, pages: None, len_mask: u32::MAX }
+    }
+
+    /// Slots for lines of `line_bytes` in pages of 2^`page_shift` bytes, which have [`Places`](super::Places) in their region,
+    /// the only one. A line is no longer than a page.
+    pub(crate) fn of_places(line_bytes: u32, page_shift: u32) -> Self {
+        let shift = line_bytes.ilog2();
+        let pages = Some((page_shift - shift, vec![]));
+        Self { shift, regions: vec![Numbering::default()], slots: 0, pages, len_mask: u32::MAX }
+    }
+
+    /// Where pages have places: there are these, by place, of which it knows the first ones.
+    pub(crate) fn extend(&mut self, pages: &[u64]) {
+        if let Some((lines, known)) = &mut self.pages {
+            known.extend_from_slice(&pages[known.len()..]);
+            self.slots = (known.len() as u64) << *lines;
+        }
+    }
+
+    /// Whether its slots become more as the trace goes on.
+    #[must_use]
+    pub fn grows(&self) -> bool {
+        self.pages.is_some()
+    }
+
+    /// The most slots there may ever be.
+    #[must_use]
+    pub fn most_slots(&self) -> u64 {
+        if self.grows() { MAX_LINES } else { self.slots }
     }
 
     /// The same with another rule for records that span lines.
@@ -73,13 +103,33 @@ impl LineSpace {
         self.regions[shape.attributes().region()].ends(self.shift, offset, shape.len() & self.len_mask)
     }
 
+    /// How many lines a record touches besides that of its first byte.
+    #[inline]
+    pub(super) fn more_lines(&self, offset: u64, len: u32) -> u32 {
+        let in_line = offset & u64::from(self.line_bytes() - 1);
+        ((in_line + u64::from((len & self.len_mask).max(1) - 1)) >> self.shift) as u32
+    }
+
+    /// How many lines from that of `slot` on lie side by side for sure: to the end of its page, where pages have places.
+    pub(super) fn rest_of_page(&self, slot: u32) -> u32 {
+        self.pages.as_ref().map_or(u32::MAX, |(lines, _)| (1 << lines) - (slot & ((1 << lines) - 1)))
+    }
+
     /// Line in bytes.
     #[must_use]
     pub fn line_bytes(&self) -> u32 {
         1 << self.shift
     }
 
-    /// Number of slots.
+    /// Whether the lines are few enough.
+    pub(crate) fn check(&self) -> Result<(), SimulationError> {
+        match self.slots > MAX_LINES {
+            true => Err(SimulationError::TooManyLines { lines: self.slots, line_bytes: self.line_bytes() }),
+            false => Ok(()),
+        }
+    }
+
+    /// Number of slots, so far if their number [`grows`](Self::grows).
     #[must_use]
     pub fn slots(&self) -> u64 {
         self.slots
@@ -89,6 +139,9 @@ impl LineSpace {
     #[inline]
     #[must_use]
     pub fn line(&self, region: usize, slot: u32) -> u64 {
-        u64::from(slot).wrapping_add(self.regions[region].delta)
+        match &self.pages {
+            None => u64::from(slot).wrapping_add(self.regions[region].delta),
+            Some((lines, pages)) => pages[(slot >> lines) as usize] << lines | u64::from(slot & ((1 << lines) - 1)),
+        }
     }
 }

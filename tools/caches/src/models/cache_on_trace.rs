@@ -21,7 +21,7 @@ impl<'a> CacheOnTrace<'a> {
         let ways = match config.sets() {
             // One set never holds more lines than there are: no more frames than needed, if the policy can have so many.
             1 => {
-                let needed = config.lines().min(space.slots().max(1).next_power_of_two());
+                let needed = config.lines().min(space.most_slots().max(1).next_power_of_two());
                 let allowed = config.policy().entry().allows_ways(needed).is_ok();
                 if allowed { needed } else { config.lines() }
             }

@@ -28,7 +28,7 @@ use queue::{FIRST_TIME, GONE, LastUse, NEVER, Queue, Use};
 
 use super::{CacheModel, LineCounts};
 use crate::{
-    lines::{LineChunk, LineSpace},
+    lines::{LineChunk, LineSpace, grow},
     misses::Misses,
 };
 
@@ -144,12 +144,15 @@ impl LruStack {
 }
 
 impl CacheModel for LruStack {
-    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
+        grow(&mut self.last, space, NEVER);
         if (self.horizon - self.now) as usize <= chunk.slots().len() {
             self.renumber();
         }
         if chunk.writes() && self.dirt.is_empty() {
             self.dirt = vec![self.levels.len() as u16; self.last.len()];
+        } else if !self.dirt.is_empty() {
+            grow(&mut self.dirt, space, self.levels.len() as u16);
         }
         // A trace without writes, which most are, never looks at dirtiness.
         match (self.dirt.is_empty(), self.levels.len() == 1) {

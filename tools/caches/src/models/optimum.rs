@@ -25,7 +25,7 @@ pub(crate) use {few_ways::FewWays, one_set::OneSet};
 
 use super::{CacheModel, LineCounts};
 use crate::{
-    lines::{LineChunk, LineSpace},
+    lines::{LineChunk, LineSpace, grow},
     misses::Misses,
 };
 
@@ -44,6 +44,9 @@ pub(crate) enum Found {
 pub(crate) trait Frames {
     /// Uses the line of `slot`, whose line number is `line()`.
     fn touch(&mut self, slot: u32, line: impl FnOnce() -> u64) -> Found;
+
+    /// There are as many slots as `space` has now.
+    fn grow(&mut self, space: &LineSpace);
 }
 
 /// Which lines may stay in no frame at all.
@@ -117,8 +120,9 @@ impl<F: Frames> Optimum<F> {
 
 impl<F: Frames> CacheModel for Optimum<F> {
     fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
-        if chunk.writes() && self.dirty.is_empty() {
-            self.dirty = vec![false; space.slots() as usize];
+        self.frames.grow(space);
+        if chunk.writes() || !self.dirty.is_empty() {
+            grow(&mut self.dirty, space, false);
         }
         // A trace without writes, which most are, never looks at dirtiness.
         if self.dirty.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::{CacheModel, LineCounts, Replacement, Sets};
 use crate::{
-    lines::{LineChunk, LineSpace},
+    lines::{LineChunk, LineSpace, grow},
     misses::Misses,
 };
 
@@ -64,7 +64,8 @@ impl<R: Replacement> SetAssociative<R> {
         assert!(frames <= MAX_FRAMES);
         Self {
             places: vec![Lookup::NEVER; space.slots() as usize],
-            frames: vec![Frame::default(); frames as usize],
+            // A single set takes frames as they are filled: it may have room for more lines than ever come.
+            frames: vec![Frame::default(); if sets.number() == 1 { 0 } else { frames as usize }],
             filled: vec![0; sets.number()],
             sets,
             ways,
@@ -85,6 +86,9 @@ impl<R: Replacement> SetAssociative<R> {
             self.places[self.frames[frame].slot as usize] = Lookup::GONE;
         } else {
             self.filled[set] += 1;
+            if frame == self.frames.len() {
+                self.frames.push(Frame::default());
+            }
         }
         self.frames[frame] = Frame { slot, dirty: false };
         self.places[slot as usize] = Lookup::in_frame(frame);
@@ -95,6 +99,7 @@ impl<R: Replacement> SetAssociative<R> {
 
 impl<R: Replacement> CacheModel for SetAssociative<R> {
     fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
+        grow(&mut self.places, space, Lookup::NEVER);
         for (i, &slot) in chunk.slots().iter().enumerate() {
             let attributes = chunk.attributes(i);
             let before = self.places[slot as usize];

@@ -2,7 +2,7 @@
 
 use super::{CacheModel, LineCounts};
 use crate::{
-    lines::{LineChunk, LineSpace},
+    lines::{LineChunk, LineSpace, grow},
     misses::Misses,
 };
 
@@ -19,7 +19,8 @@ impl Uncached {
 }
 
 impl CacheModel for Uncached {
-    fn run(&mut self, _: &LineSpace, chunk: &LineChunk, counted: bool, _: &mut Misses) {
+    fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, _: &mut Misses) {
+        grow(&mut self.touched, space, false);
         let mut first = 0;
         for &slot in chunk.slots() {
             first += u64::from(!std::mem::replace(&mut self.touched[slot as usize], true));

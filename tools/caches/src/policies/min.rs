@@ -47,10 +47,14 @@ fn farthest(full: &FullSet) -> Option<usize> {
 }
 
 fn optimum(cache: &CacheOnTrace, bypass: Bypass) -> Box<dyn CacheModel> {
-    let (slots, ways) = (cache.space().slots() as usize, cache.ways());
+    let (space, ways) = (cache.space(), cache.ways());
     if cache.sets() == 1 {
-        Box::new(Optimum::new(cache.regions(), bypass, OneSet::new(slots, ways, bypass)))
+        Box::new(Optimum::new(cache.regions(), bypass, OneSet::new(space, ways, bypass)))
     } else {
-        Box::new(Optimum::new(cache.regions(), bypass, FewWays::new(slots, cache.index(), ways, bypass)))
+        Box::new(Optimum::new(
+            cache.regions(),
+            bypass,
+            FewWays::new(space.slots() as usize, cache.index(), ways, bypass),
+        ))
     }
 }

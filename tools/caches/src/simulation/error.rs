@@ -3,6 +3,7 @@
 use pm_formats::trace::Region;
 use thiserror::Error;
 
+use crate::lines::MAX_LINES;
 use crate::models::MAX_FRAMES;
 use crate::{CacheConfig, ConfigError};
 
@@ -23,6 +24,9 @@ pub enum SimulationError {
         /// Index of the region.
         region: usize,
     },
+    /// All addresses, and regions besides.
+    #[error("the trace has a region of all addresses and others besides")]
+    AddressesAndRegions,
     /// More regions than an access can name.
     #[error("the trace has {0} regions; at most 65536 can be told apart")]
     TooManyRegions(usize),
@@ -36,14 +40,13 @@ pub enum SimulationError {
     Line(#[from] ConfigError),
 }
 
-/// Lines of all regions that can be simulated: half of what 32 bits tell apart, so that the times of the LRU stack, one
-/// for each line at least, leave room for time to pass.
-pub(super) const MAX_LINES: u64 = 1 << 31;
-
 /// Refuses regions that cannot be told apart or do not lie in memory.
 pub(super) fn check_regions(regions: &[Region]) -> Result<(), SimulationError> {
     if regions.len() > 1 << 16 {
         return Err(SimulationError::TooManyRegions(regions.len()));
+    }
+    if regions.len() > 1 && regions.iter().any(Region::is_addresses) {
+        return Err(SimulationError::AddressesAndRegions);
     }
     match regions.iter().position(|r| r.size > 0 && r.base.checked_add(r.size - 1).is_none()) {
         Some(region) => Err(SimulationError::RegionBeyondAddresses { region }),

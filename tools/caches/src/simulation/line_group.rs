@@ -2,10 +2,9 @@
 
 use pm_formats::trace::Region;
 
-use super::error::MAX_LINES;
 use crate::curves::{CurveCollector, Shards};
 use crate::findings::{SearchStart, WorkingSetCounter};
-use crate::lines::{Accesses, LineChunk, LineSpace, Repeats, Resume};
+use crate::lines::{Accesses, LineChunk, LineSpace, PAGE_SHIFT, Repeats, Resume};
 use crate::misses::{Misses, PageSwitches};
 use crate::models::{CacheModel, CacheOnTrace};
 use crate::{CacheConfig, Measures, Policy, SimulationError};
@@ -13,6 +12,8 @@ use crate::{CacheConfig, Measures, Policy, SimulationError};
 /// The line accesses of one line size and the caches they run through.
 pub(super) struct LineGroup {
     pub(super) space: LineSpace,
+    /// log2 of the bytes of the pages that have places, if they have.
+    pub(super) page_shift: u32,
     chunk: LineChunk,
     /// Line accesses that count.
     pub(super) accesses: u64,
@@ -49,11 +50,14 @@ impl LineGroup {
         regions: &[Region],
         measures: &Measures,
     ) -> Result<Self, SimulationError> {
-        let space = LineSpace::new(regions, line_bytes).with_span(measures.span);
+        let page_shift = PAGE_SHIFT.max(line_bytes.ilog2());
+        let space = match regions {
+            [region] if region.is_addresses() => LineSpace::of_places(line_bytes, page_shift),
+            _ => LineSpace::new(regions, line_bytes),
+        };
+        let space = space.with_span(measures.span);
         let slots = space.slots();
-        if slots > MAX_LINES {
-            return Err(SimulationError::TooManyLines { lines: slots, line_bytes });
-        }
+        space.check()?;
         let models = models(&space, members, configs, regions.len(), measures)?;
         let needed = models.iter().any(|running| running.model.repeats_matter());
         let curve = measures.curves.contains(&line_bytes);
@@ -63,9 +67,10 @@ impl LineGroup {
             models,
             misses: Misses::new(measures.page_bytes.is_some()),
             curve: (curve && measures.exact_curves()).then(|| CurveCollector::new(slots)),
-            shards: measures.sampled.filter(|_| curve).map(|rate| Shards::new(slots, rate)),
+            shards: measures.sampled.filter(|_| curve).map(|rate| Shards::new(&space, rate)),
             working_sets: measures.working_sets.then(|| WorkingSetCounter::new(slots)),
             fetched: None,
+            page_shift,
             space,
         })
     }
@@ -97,7 +102,7 @@ impl LineGroup {
                 curve.run(self.space.slots(), &self.chunk, counted);
             }
             if let Some(shards) = &mut self.shards {
-                shards.run(&self.chunk, counted);
+                shards.run(&self.space, &self.chunk, counted);
             }
         }
     }

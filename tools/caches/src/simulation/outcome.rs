@@ -4,6 +4,7 @@ use std::{collections::BTreeMap, rc::Rc};
 
 use super::Simulation;
 use crate::findings::ResultTraffic;
+use crate::lines::PAGE_SHIFT;
 use crate::models::LineCounts;
 use crate::{AskedCounts, CacheConfig, CacheCounts, Findings, RecordCounts, TraceCounts};
 
@@ -16,6 +17,7 @@ impl Simulation {
     #[must_use]
     pub fn findings(mut self) -> Findings {
         self.flush();
+        assert!(self.fault.is_none(), "nobody asked whether all went well");
         let mut records = RecordCounts::default();
         self.record_counts.iter().for_each(|counts| records.add(counts));
         let mut caches = vec![None; self.configs.len()];
@@ -63,6 +65,9 @@ impl Simulation {
 
     /// Bytes of all regions over bytes of a line, rounded up.
     fn blocks(&self, line: u64) -> u64 {
+        if let Some(places) = self.places.get(&PAGE_SHIFT) {
+            return ((places.pages().len() as u64) << PAGE_SHIFT).div_ceil(line);
+        }
         // 2^16 sizes may add up to more than 64 bits; their lines were checked to be few.
         let bytes: u128 = self.regions.iter().map(|r| u128::from(r.size)).sum();
         bytes.div_ceil(line.into()) as u64

@@ -13,6 +13,9 @@ pub enum WindowError {
          choose lru or none, or simulate a trace that is not sampled in windows"
     )]
     Policy(CacheConfig),
+    /// Nobody has laid out the memory of the trace.
+    #[error("a trace of all addresses is not sampled in windows")]
+    Addresses,
     /// No such simulation.
     #[error(transparent)]
     Simulation(#[from] SimulationError),

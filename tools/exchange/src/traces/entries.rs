@@ -1,5 +1,7 @@
 //! The entries of an input, one after another: lines of text, or records of a fixed length.
 
+mod batch;
+
 use super::{EntryParser, EntryShape, Reference, text};
 use crate::fault::bad_input;
 use std::io::{BufRead, ErrorKind, Read as _};
@@ -52,7 +54,7 @@ impl<R: BufRead> Entries<R> {
         Ok(entries)
     }
 
-    /// The next access.
+    /// The next access, where entries are lines.
     ///
     /// # Errors
     /// With the number of its entry, if that is not of the format; what the input reports.
@@ -61,11 +63,7 @@ impl<R: BufRead> Entries<R> {
             return self.judged(reference).map(Some);
         }
         loop {
-            let there = match self.bytes {
-                Some(bytes) => self.record(bytes)?,
-                None => self.line()?,
-            };
-            if !there {
+            if !self.line()? {
                 return Ok(None);
             }
             match self.parser.parse(&self.entry) {
@@ -118,19 +116,6 @@ impl<R: BufRead> Entries<R> {
         }
         if self.entry.contains(&0) {
             return Err(self.wrong(&format!("{} is no text", text::quoted(&self.entry))));
-        }
-        Ok(true)
-    }
-
-    /// The next record.
-    fn record(&mut self, bytes: usize) -> anyhow::Result<bool> {
-        let got = self.fill(bytes)?;
-        if got == 0 {
-            return Ok(false);
-        }
-        self.number += 1;
-        if got < bytes {
-            return Err(self.wrong(&format!("the input ends after {got} of its {bytes} bytes")));
         }
         Ok(true)
     }

@@ -1,6 +1,6 @@
 //! What a format of traces is to those who read it.
 
-use super::{Parsed, Reference};
+use super::{Numbered, Parsed, Reference};
 use crate::BadQuestion;
 use pm_registry::Registered;
 
@@ -62,6 +62,29 @@ pub trait EntryParser {
     /// The next access of the same entry, if it tells of several.
     fn rest(&mut self) -> Option<Reference> {
         None
+    }
+
+    /// Adds the entries of records of `bytes` bytes each, of which the first has this number, to `parsed`. Every parser has
+    /// the loop of its own, so that a record costs no call.
+    ///
+    /// # Errors
+    /// The number of the first that is wrong, and what is wrong with it; those before are there.
+    fn parse_records(
+        &mut self,
+        records: &[u8],
+        bytes: usize,
+        first: u64,
+        parsed: &mut Vec<Numbered>,
+    ) -> Result<(), (u64, String)> {
+        for (number, record) in (first..).zip(records.chunks_exact(bytes)) {
+            if let Some(reference) = self.parse(record).map_err(|what| (number, what))? {
+                parsed.push(Numbered { number, reference });
+                while let Some(reference) = self.rest() {
+                    parsed.push(Numbered { number, reference });
+                }
+            }
+        }
+        Ok(())
     }
 }
 

@@ -15,11 +15,11 @@ use std::io::{BufReader, Read};
 pub enum Opened {
     /// A stream of ours.
     Ours(BlockReader<Bytes>),
-    /// A trace of another program, read to its end.
+    /// A trace of another program, of which only the beginning was read.
     Foreign(Trace),
 }
 
-/// Looks at an input and reads a foreign one, of one of the formats `imports`.
+/// Looks at an input, which may be a foreign one, of one of the formats `imports`.
 ///
 /// Compression is undone wherever the first bytes show it. What has a signature is what its signature says, whatever it was
 /// said to be, and a text is no binary trace. A binary format without a signature is never guessed: what is neither a stream
@@ -42,7 +42,7 @@ pub fn open(
     let (beginning, input) = peek(input, LONGEST_LINE as usize)?;
     let format = format_of(&beginning, reading, imports)?;
     let input = if format.shape().is_text() { without_mark(&beginning, input)? } else { input };
-    read(format, input, reading, imports)
+    foreign(format, input, reading, imports)
 }
 
 /// The format of a foreign input that begins so.
@@ -110,7 +110,7 @@ fn without_mark(beginning: &[u8], mut input: Bytes) -> anyhow::Result<Bytes> {
     Ok(input)
 }
 
-fn read(
+fn foreign(
     format: &'static dyn TraceImport,
     input: Bytes,
     reading: &Reading,
@@ -128,5 +128,5 @@ fn read(
         }
     };
     let entries = Entries::new(input, format.shape(), parser, reading.access_size.is_none())?;
-    Ok(Opened::Foreign(Trace::read(format, entries, reading)?))
+    Ok(Opened::Foreign(Trace::new(format, entries, reading)))
 }

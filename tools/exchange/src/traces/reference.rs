@@ -31,5 +31,14 @@ pub struct Reference {
     pub len: Option<u32>,
 }
 
+/// An entry, and which of the input's lines or records it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Numbered {
+    /// Counted from 1.
+    pub number: u64,
+    /// What it says.
+    pub reference: Reference,
+}
+
 /// An entry, nothing (a comment), or what is wrong with it.
 pub type Parsed = Result<Option<Reference>, String>;

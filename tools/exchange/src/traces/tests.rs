@@ -32,15 +32,19 @@ type Accesses = Vec<(AccessKind, u64, u32)>;
 
 /// Format and accesses of an input.
 fn read(bytes: &[u8], reading: &Reading) -> Result<(&'static str, Accesses), String> {
-    match open(bytes, reading) {
+    let replayed = match open(bytes, reading) {
         Ok(Opened::Foreign(mut trace)) => {
             let mut heard = Heard::default();
-            trace.replay(&mut heard).unwrap();
+            let outcome = trace.replay(&mut heard);
             let bases: Vec<u64> = trace.regions().iter().map(|region| region.base).collect();
             let place = |a: Access| (a.kind, bases[usize::from(a.region)] + a.offset, a.len);
-            Ok((trace.format().word(), heard.0.into_iter().map(place).collect()))
+            outcome.map(|()| (trace.format().word(), heard.0.into_iter().map(place).collect()))
         }
-        Ok(Opened::Ours(_)) => Err("ours".into()),
+        Ok(Opened::Ours(_)) => return Err("ours".into()),
+        Err(error) => Err(error),
+    };
+    match replayed {
+        Ok(read) => Ok(read),
         Err(error) => {
             let damage = error.chain().any(|cause| {
                 let inner = cause.downcast_ref::<std::io::Error>().and_then(std::io::Error::get_ref);
@@ -113,7 +117,8 @@ fn options_change_what_an_entry_means() {
     let which = |references| read(lackey, &Reading { references, ..plain(None) }).unwrap().1;
     assert_eq!(which(References::Instructions), [(R, 16, 3)]);
     assert_eq!(which(References::All), [(R, 16, 3), (R, 32, 4)]);
-    let Ok(Opened::Foreign(trace)) = open(lackey, &plain(None)) else { panic!() };
+    let Ok(Opened::Foreign(mut trace)) = open(lackey, &plain(None)) else { panic!() };
+    trace.replay(&mut Heard::default()).unwrap();
     assert_eq!(trace.left_out(), 1);
 }
 

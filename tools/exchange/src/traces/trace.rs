@@ -1,58 +1,24 @@
-//! A foreign trace, read to its end and ready to be replayed.
+//! A foreign trace, read as it is replayed.
 
 use super::entries::Entries;
-use super::pages::Pages;
-use super::{AssumedSize, EntryKind, Reading, References, TraceImport};
-use anyhow::Context as _;
+use super::unpack::Bytes;
+use super::{AssumedSize, EntryKind, Numbered, Reading, References, TraceImport};
 use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
-use pm_spool::{Event, Spool};
-use std::io::BufRead;
 
-/// A trace in another simulator's format. Its accesses wait in a temporary file, since the regions are known at the end.
+/// A trace in another simulator's format. It is read once, while it is replayed, and nothing of it is kept.
 pub struct Trace {
     format: &'static dyn TraceImport,
-    regions: Vec<Region>,
-    accesses: Spool,
+    entries: Entries<Bytes>,
+    reading: Reading,
+    regions: [Region; 1],
     left_out: u64,
 }
 
 impl Trace {
-    /// Reads all entries.
-    pub(super) fn read<R: BufRead>(
-        format: &'static dyn TraceImport,
-        mut entries: Entries<R>,
-        reading: &Reading,
-    ) -> anyhow::Result<Self> {
-        let (mut pages, mut spool, mut left_out) = (Pages::new(), Spool::new().context("temporary file")?, 0);
-        let unit = reading.address_unit;
-        let assumed = format.assumed_size().unwrap_or(AssumedSize::BYTE);
-        while let Some(reference) = entries.next_reference()? {
-            let kind = match (reference.kind, reading.references) {
-                (EntryKind::Instruction, References::Data) | (EntryKind::Data(_), References::Instructions) => {
-                    left_out += 1;
-                    continue;
-                }
-                (EntryKind::Instruction, _) => AccessKind::Read,
-                (EntryKind::Data(kind), _) => kind,
-            };
-            // The low bits of an address that say nothing.
-            let (len, idle) = match reading.access_size.or(reference.len) {
-                Some(len) => (len, 0),
-                None if assumed.aligned => (assumed.bytes, u64::from(assumed.bytes) - 1),
-                None => (assumed.bytes, 0),
-            };
-            let place = || {
-                let first = reference.address.checked_mul(unit)? & !idle;
-                Some((first, first.checked_add(u64::from(len.max(1) - 1))?))
-            };
-            let (first, last) = place().ok_or_else(|| {
-                let text = format!("{len} bytes at address {:#x} x {unit}", reference.address);
-                entries.wrong(&format!("{text} reach beyond the last 64-bit address"))
-            })?;
-            pages.touch(first, last);
-            spool.access(Access { kind, region: 0, len, offset: first }).context("temporary file")?;
-        }
-        Ok(Self { format, regions: pages.regions(format.word()), accesses: spool, left_out })
+    /// The trace that has these entries.
+    pub(super) fn new(format: &'static dyn TraceImport, entries: Entries<Bytes>, reading: &Reading) -> Self {
+        let regions = [Region::addresses(format.word())];
+        Self { format, entries, reading: reading.clone(), regions, left_out: 0 }
     }
 
     /// Its format.
@@ -61,13 +27,13 @@ impl Trace {
         self.format
     }
 
-    /// The pages it touches, runs of them at their addresses.
+    /// Its region, which is all addresses.
     #[must_use]
     pub fn regions(&self) -> &[Region] {
         &self.regions
     }
 
-    /// Entries that were not asked for: instructions, or data.
+    /// Entries that were not asked for, of those replayed: instructions, or data.
     #[must_use]
     pub fn left_out(&self) -> u64 {
         self.left_out
@@ -76,22 +42,45 @@ impl Trace {
     /// Replays all accesses as one block without searches.
     ///
     /// # Errors
-    /// What the temporary file reports.
+    /// If an entry is not of the format, with its line or record; what the input reports. What was replayed before that is
+    /// then worthless.
     pub fn replay(&mut self, sink: &mut impl TraceSink) -> anyhow::Result<()> {
-        self.accesses.flush().context("temporary file")?;
-        let end = self.accesses.mark();
-        let mut cursor = self.accesses.cursor(0, end);
         sink.block(0, false);
-        let mut at = 0;
-        while let Some(event) = cursor.next_event().context("temporary file")? {
-            let Event::Access(access) = event else { continue };
-            let address = access.offset;
-            let region = &self.regions[at];
-            if address < region.base || address - region.base >= region.size {
-                at = self.regions.partition_point(|region| region.base <= address) - 1;
-            }
-            sink.access(Access { region: at as u16, offset: address - self.regions[at].base, ..access });
-        }
+        let mut batch = vec![];
+        while self.replay_batch(&mut batch, sink)? {}
         Ok(())
+    }
+
+    /// Replays the next accesses, with a `batch` to keep them in; false if there are no more.
+    fn replay_batch(&mut self, batch: &mut Vec<Numbered>, sink: &mut impl TraceSink) -> anyhow::Result<bool> {
+        if !self.entries.next_batch(batch)? {
+            return Ok(false);
+        }
+        let Reading { access_size, address_unit: unit, references, .. } = self.reading;
+        let assumed = self.format.assumed_size().unwrap_or(AssumedSize::BYTE);
+        // The low bits of an address that say nothing.
+        let idle = if assumed.aligned { u64::from(assumed.bytes) - 1 } else { 0 };
+        for &Numbered { number, reference } in &*batch {
+            let kind = match (reference.kind, references) {
+                (EntryKind::Instruction, References::Data) | (EntryKind::Data(_), References::Instructions) => {
+                    self.left_out += 1;
+                    continue;
+                }
+                (EntryKind::Instruction, _) => AccessKind::Read,
+                (EntryKind::Data(kind), _) => kind,
+            };
+            let (len, idle) = match access_size.or(reference.len) {
+                Some(len) => (len, 0),
+                None => (assumed.bytes, idle),
+            };
+            let first = reference.address.checked_mul(unit).map(|first| first & !idle);
+            let within = first.filter(|first| first.checked_add(u64::from(len.max(1) - 1)).is_some());
+            let Some(offset) = within else {
+                let text = format!("{len} bytes at address {:#x} x {unit}", reference.address);
+                return Err(self.entries.wrong_at(number, &format!("{text} reach beyond the last 64-bit address")));
+            };
+            sink.access(Access { kind, region: 0, len, offset });
+        }
+        Ok(true)
     }
 }

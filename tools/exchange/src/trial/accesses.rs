@@ -19,8 +19,19 @@ impl TraceSink for Heard<'_> {
     }
 }
 
-/// The trace in an input of a foreign format, or what is wrong with it.
+/// The trace in an input, read to its end of a foreign format, or what is wrong with it.
 pub(super) fn trace_in(input: &[u8], reading: &Reading, imports: &Registry<dyn TraceImport>) -> Result<Trace, String> {
+    let mut trace = begun_in(input, reading, imports)?;
+    struct Deaf;
+    impl TraceSink for Deaf {
+        fn access(&mut self, _: Access) {}
+    }
+    trace.replay(&mut Deaf).map_err(|error| format!("{error:#}"))?;
+    Ok(trace)
+}
+
+/// The trace in an input, of which only the beginning was read.
+fn begun_in(input: &[u8], reading: &Reading, imports: &Registry<dyn TraceImport>) -> Result<Trace, String> {
     match open(Cursor::new(input.to_vec()), reading, imports) {
         Ok(Opened::Foreign(trace)) => Ok(trace),
         Ok(Opened::Ours(_)) => Err("taken for a stream of ours".into()),
@@ -34,9 +45,9 @@ pub(super) fn accesses_in(
     reading: &Reading,
     imports: &Registry<dyn TraceImport>,
 ) -> Result<(&'static str, Vec<Seen>), String> {
-    let mut trace = trace_in(input, reading, imports)?;
+    let mut trace = begun_in(input, reading, imports)?;
     let bases: Vec<u64> = trace.regions().iter().map(|region| region.base).collect();
     let mut heard = Heard { trace: &bases, accesses: vec![] };
-    trace.replay(&mut heard).map_err(|error| error.to_string())?;
+    trace.replay(&mut heard).map_err(|error| format!("{error:#}"))?;
     Ok((trace.format().word(), heard.accesses))
 }

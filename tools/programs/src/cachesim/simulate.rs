@@ -32,14 +32,14 @@ pub(super) fn simulate(
             if args.lanes.iter().any(|&lanes| lanes > 1) {
                 return Err(usage(format!("{name}: a foreign trace has no searches for --lanes to let fly together")));
             }
-            if let Some(remark) = args.foreign.left_out(trace.left_out()) {
-                args.voice.remark(format!("{name}: {remark}"));
-            }
             // Nor has it queries whose results would go anywhere.
             let measures = Measures { results: None, ..questions.measures.clone() };
             let simulation = Simulation::measuring(trace.regions(), &questions.caches, &measures);
             let mut simulation = simulation.context(name.clone())?;
-            trace.replay(&mut simulation).context(name)?;
+            trace.replay(&mut simulation).and_then(|()| Ok(simulation.check()?)).context(name.clone())?;
+            if let Some(remark) = args.foreign.left_out(trace.left_out()) {
+                args.voice.remark(format!("{name}: {remark}"));
+            }
             let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
             results.add(args, &source, 1, simulation.findings())
         }

@@ -30,6 +30,10 @@ pub(super) fn header(kind: StreamKind, header: &Header, output: &mut impl Write)
                 let twice = if reread { ", inner nodes read twice" } else { "" };
                 format!(", a tree of {} nodes{twice}", HumanCount(nodes.into()))
             }
+            Coding::Addresses => {
+                line("region", format!("{}: all addresses of 64 bits", region.name))?;
+                continue;
+            }
         };
         let place = format!("{:#x} to {:#x}", region.base, region.base + region.size);
         line("region", format!("{}: {place}, records of {} bytes{coding}", region.name, region.record_size))?;

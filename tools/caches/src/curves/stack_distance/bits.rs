@@ -24,12 +24,19 @@ pub(super) struct Bits {
 impl Bits {
     /// No bit set. `len` is a multiple of [`PER_SUPER`].
     pub(super) fn new(len: u32) -> Self {
-        Self {
-            words: vec![0; (len / PER_WORD) as usize],
-            by_word: vec![[0; 2]; (len / PER_GROUP) as usize],
-            by_group: vec![[0; 4]; (len / PER_BLOCK) as usize],
-            by_block: vec![[0; 16]; (len / PER_SUPER) as usize],
-            by_super: vec![0; (len / PER_SUPER) as usize],
+        let mut bits = Self { words: vec![], by_word: vec![], by_group: vec![], by_block: vec![], by_super: vec![] };
+        bits.grow(len);
+        bits
+    }
+
+    /// Bits that are not set behind the others, up to `len` of them, a multiple of [`PER_SUPER`].
+    pub(super) fn grow(&mut self, len: u32) {
+        if len > self.len() {
+            self.words.resize((len / PER_WORD) as usize, 0);
+            self.by_word.resize((len / PER_GROUP) as usize, [0; 2]);
+            self.by_group.resize((len / PER_BLOCK) as usize, [0; 4]);
+            self.by_block.resize((len / PER_SUPER) as usize, [0; 16]);
+            self.by_super.resize((len / PER_SUPER) as usize, 0);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Frames of many sets: by set, a sorted list of when they were freed.
 
 use super::{super::Sets, Bypass, Found, Frames};
+use crate::lines::{LineSpace, grow};
 
 /// Times are counted by set, from [`FIRST`] on: 64 bits never run out.
 pub(crate) struct FewWays {
@@ -68,5 +69,9 @@ impl Frames for FewWays {
         *now += 1;
         *start = *now - u64::from(self.bypass.earlier());
         found
+    }
+
+    fn grow(&mut self, space: &LineSpace) {
+        grow(&mut self.starts, space, NEVER);
     }
 }

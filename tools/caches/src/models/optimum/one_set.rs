@@ -1,6 +1,7 @@
 //! Frames of a single set of any number of ways: how many were freed at each time, in a window of times.
 
 use super::{Bypass, Found, Frames};
+use crate::lines::{LineSpace, grow};
 
 /// Times are numbered anew whenever the window is full: what matters of a time is only which frames were free then, so
 /// afterwards there are as many as frames freed at different times.
@@ -10,6 +11,10 @@ use super::{Bypass, Found, Frames};
 /// except for now.
 pub(crate) struct OneSet {
     bypass: Bypass,
+    /// The least number of times.
+    window: usize,
+    /// Frames that stays can have.
+    free: usize,
     /// By slot, since when the stay that began with the last use needs a frame.
     starts: Vec<u32>,
     /// What time it is, an index into the window.
@@ -31,22 +36,32 @@ const FIRST: u32 = 2;
 const WINDOW: usize = 1 << 16;
 
 impl OneSet {
-    /// A cache of `ways` lines.
-    pub(crate) fn new(slots: usize, ways: usize, bypass: Bypass) -> Self {
-        Self::with_window(slots, ways, bypass, WINDOW)
+    /// A cache of `ways` lines, in a trace of the lines of `space`.
+    pub(crate) fn new(space: &LineSpace, ways: usize, bypass: Bypass) -> Self {
+        Self::with_window(space.slots() as usize, space.most_slots() as usize, ways, bypass, WINDOW)
     }
 
-    fn with_window(slots: usize, ways: usize, bypass: Bypass, window: usize) -> Self {
+    fn with_window(slots: usize, most_slots: usize, ways: usize, bypass: Bypass, window: usize) -> Self {
         // There is never more than one stay of each line.
-        let free = bypass.free(ways).min(slots);
+        let free = bypass.free(ways).min(most_slots);
+        let mut frames = Self { bypass, window, free, starts: vec![], now: FIRST, freed: vec![], earlier: vec![] };
+        frames.starts.resize(slots, NEVER);
+        frames.make_times(slots);
+        frames.freed[FIRST as usize] = free as u32;
+        frames.earlier[NEVER as usize] = NEVER;
+        frames
+    }
+
+    /// As many times as so many lines need.
+    fn make_times(&mut self, slots: usize) {
         // Numbering anew looks at all lines and all times, and leaves at least a third of the times for misses until the
         // next: little for each of them. The numbers fit 32 bits for all the lines a simulation takes, 2^31.
-        let times = window.max(slots / 2).max(free + free / 2) + FIRST as usize + 2;
-        let mut freed = vec![0; times];
-        freed[FIRST as usize] = free as u32;
-        let mut earlier = vec![GONE; times];
-        earlier[NEVER as usize] = NEVER;
-        Self { bypass, starts: vec![NEVER; slots], now: FIRST, freed, earlier }
+        let free = self.free.min(slots);
+        let times = self.window.max(slots / 2).max(free + free / 2) + FIRST as usize + 2;
+        if self.freed.len() < times {
+            self.freed.resize(times, 0);
+            self.earlier.resize(times, GONE);
+        }
     }
 
     /// The last time not after `time`, which is before now, at which a frame was freed that is free; [`GONE`] or before if
@@ -121,6 +136,11 @@ impl Frames for OneSet {
         self.starts[slot as usize] = self.now - u32::from(self.bypass.earlier());
         if start == NEVER { Found::New } else { Found::Gone }
     }
+
+    fn grow(&mut self, space: &LineSpace) {
+        grow(&mut self.starts, space, NEVER);
+        self.make_times(self.starts.len());
+    }
 }
 
 #[cfg(test)]
@@ -131,7 +151,7 @@ mod tests {
     fn found(window: usize) -> Vec<bool> {
         let mut found = Vec::new();
         for (ways, bypass) in [(1, Bypass::Never), (4, Bypass::Never), (30, Bypass::Never), (4, Bypass::Allowed)] {
-            let mut frames = OneSet::with_window(60, ways, bypass, window);
+            let mut frames = OneSet::with_window(60, 60, ways, bypass, window);
             let mut state = 1_u32;
             for round in 0..20_000 {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -152,7 +172,7 @@ mod tests {
 
     #[test]
     fn the_window_does_not_grow_with_the_cache() {
-        let frames = OneSet::new(10, usize::MAX, Bypass::Never);
+        let frames = OneSet::with_window(10, 10, usize::MAX, Bypass::Never, WINDOW);
         assert!(frames.freed.len() < 2 * WINDOW);
     }
 }

@@ -1,0 +1,166 @@
+//! Places for the pages of a trace whose addresses nobody has laid out.
+//!
+//! A page gets the next free place when it is touched for the first time, so whatever 64-bit addresses a trace has and
+//! however far apart, its lines are numbered without gaps in one reading and memory grows with the pages touched. Pages side by
+//! side need no places side by side: of an access the places of its first and of its last byte are told, and one that goes on
+//! in more than two pages becomes an access for each. Lines end where pages do, so there are as many line accesses as ever.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use super::{Accesses, Shape};
+use crate::SpanRule;
+
+/// log2 of the bytes of a page, if no line is longer: those that keep regions apart.
+pub(crate) const PAGE_SHIFT: u32 = 12;
+
+/// log2 of the pages remembered with their places, at an index that is a hash: most accesses need no look at the table.
+const RECENT: u32 = 12;
+
+/// Not a page: a page's number has 52 bits at most.
+const NO_PAGE: u64 = u64::MAX;
+
+/// The pages touched, and the place of each.
+pub(crate) struct Places {
+    /// log2 of the bytes of a page.
+    shift: u32,
+    recent: Box<[(u64, u32)]>,
+    places: HashMap<u64, u32, BuildHasherDefault<PageHasher>>,
+    /// Page numbers, by place.
+    pages: Vec<u64>,
+    /// Of the accesses taken last, first and last byte in the places of their pages, as many as were taken.
+    firsts: Vec<u64>,
+    lasts: Vec<u64>,
+    taken: usize,
+    /// Their shapes, if they had to be cut.
+    pieces: Vec<Shape>,
+}
+
+impl Places {
+    /// None yet, of pages of 2^`shift` bytes.
+    pub(crate) fn new(shift: u32) -> Self {
+        Self {
+            shift,
+            recent: vec![(NO_PAGE, 0); 1 << RECENT].into(),
+            places: HashMap::default(),
+            pages: vec![],
+            firsts: vec![],
+            lasts: vec![],
+            taken: 0,
+            pieces: vec![],
+        }
+    }
+
+    /// Numbers of the pages touched, by place.
+    pub(crate) fn pages(&self) -> &[u64] {
+        &self.pages
+    }
+
+    /// Finds places for the pages of these accesses. Where `span` wants the first line only, what lies in further pages is left
+    /// out, but for its pages.
+    ///
+    /// # Panics
+    /// If an access goes on beyond the last address.
+    pub(crate) fn take(&mut self, accesses: &Accesses, span: SpanRule) {
+        let (shift, low) = (self.shift, (1 << self.shift) - 1);
+        let number = accesses.offsets.len();
+        self.firsts.resize(self.firsts.len().max(number), 0);
+        self.lasts.resize(self.firsts.len(), 0);
+        self.taken = number;
+        self.pieces.clear();
+        let all = if span == SpanRule::First { 0 } else { u64::MAX };
+        let mut longest = 0;
+        for (i, (&offset, shape)) in accesses.offsets.iter().zip(accesses.shapes).enumerate() {
+            let first = u64::from(self.place(offset >> shift)) << shift | (offset & low);
+            let more = u64::from(shape.len().max(1) - 1);
+            self.firsts[i] = first;
+            self.lasts[i] = first + (more & all);
+            if (offset & low) + more > low {
+                longest = longest.max(more);
+                let last = offset.checked_add(more).expect("an access outside of its region: beyond the last address");
+                let place = u64::from(self.place(last >> shift));
+                if span != SpanRule::First {
+                    self.lasts[i] = place << shift | (last & low);
+                }
+            }
+        }
+        // Further pages than two have to be there too.
+        if longest > low {
+            self.cut(accesses, span);
+        }
+    }
+
+    /// The same where some accesses go on in more than two pages: an access for each page.
+    #[cold]
+    fn cut(&mut self, accesses: &Accesses, span: SpanRule) {
+        let (shift, low) = (self.shift, (1 << self.shift) - 1);
+        self.firsts.clear();
+        self.lasts.clear();
+        for (&offset, &shape) in accesses.offsets.iter().zip(accesses.shapes) {
+            let last = offset + u64::from(shape.len().max(1) - 1);
+            for page in offset >> shift..=last >> shift {
+                let place = u64::from(self.place(page)) << shift;
+                let (from, to) = (offset.max(page << shift), last.min(page << shift | low));
+                if from == offset || span != SpanRule::First {
+                    let of_piece = if span == SpanRule::First { from } else { to };
+                    self.firsts.push(place | (from & low));
+                    self.lasts.push(place | (of_piece & low));
+                    self.pieces.push(shape.of_len(shape.len().min((to - from + 1) as u32)));
+                }
+            }
+        }
+        self.taken = self.firsts.len();
+    }
+
+    /// The accesses taken last, with the places of their pages instead of the pages.
+    pub(crate) fn placed<'a>(&'a self, taken: &Accesses<'a>) -> Accesses<'a> {
+        let (offsets, lasts) = (&self.firsts[..self.taken], Some(&self.lasts[..self.taken]));
+        match self.pieces.is_empty() {
+            true => Accesses { offsets, lasts, ..*taken },
+            false => Accesses { offsets, lasts, shapes: &self.pieces, common: None },
+        }
+    }
+
+    /// The place of a page.
+    #[inline]
+    fn place(&mut self, page: u64) -> u32 {
+        // Pages side by side are far apart in this order, and multiples of powers of two too (Knuth, *The Art of Computer
+        // Programming* 3, 6.4, on multiplicative hashing).
+        let at = (page.wrapping_mul(GOLDEN) >> (64 - RECENT)) as usize;
+        let (known, place) = self.recent[at];
+        if known == page { place } else { self.look_up(page, at) }
+    }
+
+    #[inline(never)]
+    fn look_up(&mut self, page: u64, at: usize) -> u32 {
+        let next = self.pages.len() as u32;
+        let place = *self.places.entry(page).or_insert(next);
+        if place == next {
+            self.pages.push(page);
+        }
+        self.recent[at] = (page, place);
+        place
+    }
+}
+
+/// 2^64 over the golden ratio, odd.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Hashes a page number: both halves of a long product, so that all of its bits make a difference to all of the hash.
+#[derive(Default)]
+struct PageHasher(u64);
+
+impl Hasher for PageHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        let product = u128::from(self.0 ^ number ^ GOLDEN) * u128::from(GOLDEN);
+        self.0 = (product >> 64) as u64 ^ product as u64;
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}

@@ -1,0 +1,54 @@
+//! Many entries at a time: of records none is read by itself.
+
+use super::{Entries, LONGEST_ACCESS};
+use crate::traces::Numbered;
+use std::io::BufRead;
+
+/// Entries read at once: few enough for them and what they say to stay in a core's own cache.
+const BATCH: usize = 2048;
+
+impl<R: BufRead> Entries<R> {
+    /// Replaces what is in `batch` by the next entries that are no comments. False if there are no more.
+    ///
+    /// # Errors
+    /// With its number, if an entry is not of the format; what the input reports. Those before it are in the batch.
+    pub(in crate::traces) fn next_batch(&mut self, batch: &mut Vec<Numbered>) -> anyhow::Result<bool> {
+        batch.clear();
+        if let Some(bytes) = self.bytes {
+            return self.records(bytes, batch);
+        }
+        while batch.len() < BATCH
+            && let Some(reference) = self.next_reference()?
+        {
+            batch.push(Numbered { number: self.number, reference });
+        }
+        Ok(!batch.is_empty())
+    }
+
+    /// The error that something about an entry is wrong.
+    pub(in crate::traces) fn wrong_at(&mut self, number: u64, what: &str) -> anyhow::Error {
+        self.number = number;
+        self.wrong(what)
+    }
+
+    /// Records for a batch, false if there are none left.
+    fn records(&mut self, bytes: usize, batch: &mut Vec<Numbered>) -> anyhow::Result<bool> {
+        let got = self.fill(bytes * BATCH)?;
+        let (first, whole) = (self.number + 1, got / bytes * bytes);
+        self.number += (got / bytes) as u64;
+        let outcome = self.parser.parse_records(&self.entry[..whole], bytes, first, batch);
+        if self.lengths {
+            let long = |entry: &&Numbered| entry.reference.len.is_some_and(|len| len > LONGEST_ACCESS);
+            if let Some(&Numbered { number, reference }) = batch.iter().find(long) {
+                self.number = number;
+                self.judged(reference)?;
+            }
+        }
+        outcome.map_err(|(number, what)| self.wrong_at(number, &what))?;
+        if whole < got {
+            let what = format!("the input ends after {} of its {bytes} bytes", got - whole);
+            return Err(self.wrong_at(self.number + 1, &what));
+        }
+        Ok(got > 0)
+    }
+}
