@@ -5,6 +5,7 @@
 //! such a sink. What a foreign trace does not have: searches, so nothing is per query, and regions: there is one, which is
 //! all addresses.
 
+mod beyond;
 mod entries;
 mod export;
 mod exporter;

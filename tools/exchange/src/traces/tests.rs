@@ -107,7 +107,10 @@ fn options_change_what_an_entry_means() {
     assert_eq!(read(b"17,4\n", &sized).unwrap().1, [(R, 17, 8)]);
     let lines = Reading { address_unit: 128, ..plain(None) };
     assert_eq!(read(b"17\n", &lines).unwrap().1, [(R, 17 * 128, 1)]);
-    assert!(read(b"1\n0x1ffffffffffffff\n0x200000000000000\n", &lines).unwrap_err().starts_with("line 3: 1 bytes"));
+    // Numbers of lines that are addresses of more than 64 bits stay apart.
+    let (_, beyond) = read(b"1\n0x1ffffffffffffff\n0x200000000000000\n0x200000000000001\n", &lines).unwrap();
+    assert_eq!(beyond[..3], [(R, 128, 1), (R, u64::MAX - 127, 1), (R, 1 << 52, 1)]);
+    assert_eq!(beyond[3], (R, (1 << 52) + 128, 1));
     let columns =
         |names: &[&str]| Reading { columns: Some(names.iter().map(|&name| name.to_owned()).collect()), ..plain(None) };
     assert_eq!(read(b"1,2,3,r\n", &columns(&["_", "size", "address"])).unwrap().1, [(R, 3, 2)]);

@@ -1,5 +1,6 @@
 //! A foreign trace, read as it is replayed.
 
+use super::beyond::Beyond;
 use super::entries::Entries;
 use super::unpack::Bytes;
 use super::{AssumedSize, EntryKind, Numbered, Reading, References, TraceImport};
@@ -12,13 +13,15 @@ pub struct Trace {
     reading: Reading,
     regions: [Region; 1],
     left_out: u64,
+    /// Where addresses are of more than 64 bits.
+    beyond: Beyond,
 }
 
 impl Trace {
     /// The trace that has these entries.
     pub(super) fn new(format: &'static dyn TraceImport, entries: Entries<Bytes>, reading: &Reading) -> Self {
         let regions = [Region::addresses(format.word())];
-        Self { format, entries, reading: reading.clone(), regions, left_out: 0 }
+        Self { format, entries, reading: reading.clone(), regions, left_out: 0, beyond: Beyond::default() }
     }
 
     /// Its format.
@@ -73,8 +76,12 @@ impl Trace {
                 Some(len) => (len, 0),
                 None => (assumed.bytes, idle),
             };
-            let first = reference.address.checked_mul(unit).map(|first| first & !idle);
-            let within = first.filter(|first| first.checked_add(u64::from(len.max(1) - 1)).is_some());
+            let within = match unit {
+                1 => {
+                    Some(reference.address & !idle).filter(|first| first.checked_add((len.max(1) - 1).into()).is_some())
+                }
+                _ => self.beyond.address(reference.address, unit, idle, len),
+            };
             let Some(offset) = within else {
                 let text = format!("{len} bytes at address {:#x} x {unit}", reference.address);
                 return Err(self.entries.wrong_at(number, &format!("{text} reach beyond the last 64-bit address")));
