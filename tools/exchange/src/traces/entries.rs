@@ -64,6 +64,7 @@ impl<R: BufRead> Entries<R> {
         }
         loop {
             if !self.line()? {
+                self.ended()?;
                 return Ok(None);
             }
             match self.parser.parse(&self.entry) {
@@ -83,6 +84,11 @@ impl<R: BufRead> Entries<R> {
             ))),
             _ => Ok(reference),
         }
+    }
+
+    /// The end was reached: may an input of the format end so?
+    fn ended(&mut self) -> anyhow::Result<()> {
+        self.parser.end().map_err(|what| bad_input(format!("the end: {what}")))
     }
 
     /// The error that something about the entry read last is wrong.

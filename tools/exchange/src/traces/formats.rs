@@ -1,27 +1,47 @@
 //! A file a format.
 
+mod champsim;
+mod champsim_cloudsuite;
 mod csv;
 mod din;
 mod dinb;
 mod dramsim3;
+mod drmemtrace;
+mod gem5;
 mod lackey;
 mod lcs;
 mod oracle_general;
+mod pinatrace;
+mod prospero;
+mod prospero_binary;
+mod ramulator1;
 mod ramulator2;
 mod ramulator_cpu;
 mod raw32;
 mod raw64;
+mod spike;
+mod stl;
 mod xdin;
 
+pub(super) use champsim::ChampSim;
+pub(super) use champsim_cloudsuite::ChampSimCloudSuite;
 pub(super) use csv::Csv;
 pub(super) use din::Din;
 pub(super) use dinb::Dinb;
 pub(super) use dramsim3::Dramsim3;
+pub(super) use drmemtrace::DrMemTrace;
+pub(super) use gem5::Gem5;
 pub(super) use lackey::Lackey;
 pub(super) use lcs::Lcs;
 pub(super) use oracle_general::OracleGeneral;
+pub(super) use pinatrace::Pinatrace;
+pub(super) use prospero::Prospero;
+pub(super) use prospero_binary::ProsperoBinary;
 pub(super) use ramulator_cpu::RamulatorCpu;
+pub(super) use ramulator1::Ramulator1;
 pub(super) use ramulator2::Ramulator2;
 pub(super) use raw32::Raw32;
 pub(super) use raw64::Raw64;
+pub(super) use spike::Spike;
+pub(super) use stl::Stl;
 pub(super) use xdin::Xdin;

@@ -86,6 +86,14 @@ pub trait EntryParser {
         }
         Ok(())
     }
+
+    /// No more entries follow.
+    ///
+    /// # Errors
+    /// What is missing, in words, if the format tells where an input ends.
+    fn end(&mut self) -> Result<(), String> {
+        Ok(())
+    }
 }
 
 impl<F: FnMut(&[u8]) -> Parsed> EntryParser for F {

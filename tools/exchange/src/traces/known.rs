@@ -2,6 +2,7 @@
 
 use super::TraceImport;
 use super::recognise::signed;
+use super::unpack::Packing;
 use pm_formats::MAGIC;
 use pm_registry::Registry;
 
@@ -17,14 +18,9 @@ pub(super) enum Known {
 
 /// Signatures of what may be given for a trace and is not read, and what to say.
 const OTHERS: &[(&[u8], &str)] = &[
-    (b"\x1f\x8b\x08", "compressed twice; unpack it once with gzip -d"),
-    (b"\x28\xb5\x2f\xfd", "compressed twice; unpack it once with zstd -d"),
-    (b"\xfd7zXZ\0", "compressed twice; unpack it once with xz -d"),
-    (b"BZh", "compressed twice; unpack it once with bzip2 -d"),
     (b"\x04\x22\x4d\x18", "compressed by lz4; unpack it with lz4 -d"),
     (b"\xff\x06\0\0sNaPpY", "compressed by snappy; unpack it, or record it compressed by gzip"),
     (b"7z\xbc\xaf\x27\x1c", "an archive of 7-Zip; unpack it with 7z x"),
-    (b"PK\x03\x04", "a zip archive within another; unpack it once with unzip"),
     (b"PAR1", "a table in Parquet; write it as CSV"),
     (b"ARROW1", "a table in Arrow; write it as CSV"),
     (b"Obj\x01", "a table in Avro; write it as CSV"),
@@ -44,6 +40,9 @@ pub(super) fn known(beginning: &[u8], imports: &Registry<dyn TraceImport>) -> Op
     }
     if let Some(format) = signed(beginning, imports) {
         return Some(Known::Trace(format));
+    }
+    if Packing::of(beginning).is_some() {
+        return Some(Known::Other("compressed twice; unpack it once"));
     }
     OTHERS.iter().find(|(signature, _)| beginning.starts_with(signature)).map(|(_, what)| Known::Other(what))
 }

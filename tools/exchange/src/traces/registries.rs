@@ -1,7 +1,8 @@
 //! The formats of traces there are: a line each.
 
 use super::formats::{
-    Csv, Din, Dinb, Dramsim3, Lackey, Lcs, OracleGeneral, Ramulator2, RamulatorCpu, Raw32, Raw64, Xdin,
+    ChampSim, ChampSimCloudSuite, Csv, Din, Dinb, DrMemTrace, Dramsim3, Gem5, Lackey, Lcs, OracleGeneral, Pinatrace,
+    Prospero, ProsperoBinary, Ramulator1, Ramulator2, RamulatorCpu, Raw32, Raw64, Spike, Stl, Xdin,
 };
 use super::{TraceExport, TraceImport};
 use pm_registry::Registry;
@@ -18,10 +19,20 @@ pub fn imports() -> Registry<dyn TraceImport> {
             &Xdin,
             &Dinb,
             &Lackey,
+            &Pinatrace,
+            &DrMemTrace,
+            &ChampSim,
+            &ChampSimCloudSuite,
+            &Spike,
+            &Gem5,
             &OracleGeneral,
             &Lcs,
             &Csv,
             &Dramsim3,
+            &Stl,
+            &Prospero,
+            &ProsperoBinary,
+            &Ramulator1,
             &RamulatorCpu,
             &Ramulator2,
         ],

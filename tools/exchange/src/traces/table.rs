@@ -64,7 +64,8 @@ mod tests {
 
     #[test]
     fn sizes_are_told_by_those_that_have_them() {
-        let said = "din 4 and the address that of a word, dramsim3, ramulator-cpu and ramulator2 64, others 1";
+        let said = "din 4 and the address that of a word, spike 8, \
+                    dramsim3, stl, ramulator1, ramulator-cpu and ramulator2 64, others 1";
         assert_eq!(super::assumed_sizes(&imports()), said);
     }
 }

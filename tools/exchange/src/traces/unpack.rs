@@ -1,7 +1,12 @@
-//! Inputs compressed by gzip or zstd, known by their first bytes.
+//! Inputs compressed by gzip, zstd, xz or bzip2, and zip archives, known by their first bytes.
+
+mod archive;
 
 use crate::fault::BadInput;
+use archive::Archive;
+use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::MultiGzDecoder;
+use lzma_rust2::XzReader;
 use std::cell::Cell;
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::rc::Rc;
@@ -15,6 +20,18 @@ const GZIP: &[u8] = b"\x1f\x8b\x08";
 const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
 /// RFC 8878, section 3.1.2: after any byte 5X. Parallel compressors begin with such a frame.
 const SKIPPABLE: &[u8] = b"\x2a\x4d\x18";
+/// The .xz File Format, section 2.1.1.1.
+const XZ: &[u8] = b"\xfd7zXZ\0";
+/// Of a bzip2 file, before the digit that tells the size of its blocks.
+const BZIP2: &[u8] = b"BZh";
+/// What follows that digit: a block, or the end of an empty file.
+const BZIP2_BLOCKS: [&[u8]; 2] = [b"\x31\x41\x59\x26\x53\x59", b"\x17\x72\x45\x38\x50\x90"];
+/// APPNOTE.TXT, section 4.3.7: a file of a zip archive.
+const ZIP: &[u8] = b"PK\x03\x04";
+
+/// How far back zstd frames may reach, log2 of bytes: the farthest that zstd writes (`--long=31`). So much memory is needed
+/// then; xz files may ask for as much.
+const FARTHEST: u32 = 31;
 
 /// The first bytes, fewer if there are no more, and the input with them.
 pub(super) fn peek(mut input: Bytes, bytes: usize) -> io::Result<(Vec<u8>, Bytes)> {
@@ -23,21 +40,75 @@ pub(super) fn peek(mut input: Bytes, bytes: usize) -> io::Result<(Vec<u8>, Bytes
     Ok((head.clone(), Box::new(Cursor::new(head).chain(input))))
 }
 
+/// How an input that begins so is compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    Gzip,
+    Zstd,
+    Xz,
+    Bzip2,
+    Zip,
+}
+
+impl Packing {
+    /// How an input that begins so is compressed, if it is.
+    pub(super) fn of(head: &[u8]) -> Option<Self> {
+        let bzip2 = || {
+            head.starts_with(BZIP2)
+                && head.get(3).is_some_and(|size| (b'1'..=b'9').contains(size))
+                && BZIP2_BLOCKS.iter().any(|block| head[4..].starts_with(block))
+        };
+        if head.starts_with(GZIP) {
+            Some(Self::Gzip)
+        } else if head.starts_with(ZSTD) || (head.len() >= 4 && head[0] >> 4 == 5 && head[1..4] == *SKIPPABLE) {
+            Some(Self::Zstd)
+        } else if head.starts_with(XZ) {
+            Some(Self::Xz)
+        } else if bzip2() {
+            Some(Self::Bzip2)
+        } else if head.starts_with(ZIP) {
+            Some(Self::Zip)
+        } else {
+            None
+        }
+    }
+
+    /// Its name.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Gzip => "gzip",
+            Self::Zstd => "zstd",
+            Self::Xz => "xz",
+            Self::Bzip2 => "bzip2",
+            Self::Zip => "zip",
+        }
+    }
+}
+
+/// Bytes by which a packing is known.
+const HEAD: usize = 10;
+
 /// The input, decompressed if it is compressed. Frames may follow one another; anything else after one is an error.
-pub(super) fn unpack(input: Bytes) -> io::Result<Bytes> {
-    let (head, input) = peek(input, 4)?;
+///
+/// # Errors
+/// If an archive holds no trace; what the input reports.
+pub(super) fn unpack(input: Bytes) -> anyhow::Result<Bytes> {
+    let (head, input) = peek(input, HEAD)?;
+    let Some(packing) = Packing::of(&head) else { return Ok(input) };
     let failed = Rc::new(Cell::new(false));
     let watched = Watched { input, failed: Rc::clone(&failed) };
-    let checked = |decoder: Box<dyn Read>, name| -> Bytes {
-        Box::new(BufReader::with_capacity(1 << 17, Checked { decoder, name, failed }))
+    let decoder: Box<dyn Read> = match packing {
+        Packing::Gzip => Box::new(MultiGzDecoder::new(watched)),
+        Packing::Zstd => {
+            let mut decoder = zstd::stream::read::Decoder::with_buffer(watched)?;
+            decoder.window_log_max(FARTHEST)?;
+            Box::new(decoder)
+        }
+        Packing::Xz => Box::new(XzReader::new_mem_limit(watched, true, 1 << (FARTHEST - 10))),
+        Packing::Bzip2 => Box::new(MultiBzDecoder::new(watched)),
+        Packing::Zip => Box::new(Archive::open(watched)?),
     };
-    if head.starts_with(GZIP) {
-        Ok(checked(Box::new(MultiGzDecoder::new(watched)), "gzip"))
-    } else if head.starts_with(ZSTD) || (head.len() == 4 && head[0] >> 4 == 5 && head[1..] == *SKIPPABLE) {
-        Ok(checked(Box::new(zstd::stream::read::Decoder::with_buffer(watched)?), "zstd"))
-    } else {
-        Ok(watched.input)
-    }
+    Ok(Box::new(BufReader::with_capacity(1 << 17, Checked { decoder, packing, failed })))
 }
 
 /// Notes whether the file itself could not be read, to tell that from compressed data that are damaged.
@@ -74,7 +145,7 @@ impl BufRead for Watched {
 /// Says of a decoder's errors that the input is at fault.
 struct Checked {
     decoder: Box<dyn Read>,
-    name: &'static str,
+    packing: Packing,
     failed: Rc<Cell<bool>>,
 }
 
@@ -84,8 +155,10 @@ impl Read for Checked {
             if self.failed.get() || error.kind() == io::ErrorKind::Interrupted {
                 return error;
             }
-            let text =
-                format!("the compressed input ({}) is damaged, cut or followed by something else: {error}", self.name);
+            let text = format!(
+                "the compressed input ({}) is damaged, cut, followed by something else, or needs more than 2 GiB: {error}",
+                self.packing.name()
+            );
             io::Error::new(io::ErrorKind::InvalidData, BadInput::new(text))
         })
     }

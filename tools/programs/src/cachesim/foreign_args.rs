@@ -8,7 +8,7 @@ use pm_registry::Registry;
 /// How traces of other programs are read.
 #[derive(clap::Args)]
 pub(super) struct ForeignArgs {
-    /// Format of the traces; without it, as the content tells (ours, or a text), gzip or zstd around it
+    /// Format of the traces; without it, as the content tells; gzip, zstd, xz, bzip2 or zip around it
     #[arg(long, value_name = "FORMAT", value_parser = entry(&pm_exchange::traces::imports()))]
     input: Option<&'static dyn TraceImport>,
     /// Bytes of every foreign access
@@ -20,7 +20,7 @@ pub(super) struct ForeignArgs {
     /// What to simulate of a foreign trace that has instructions too
     #[arg(long, value_name = "WHICH", default_value = "data", hide_short_help = true, value_parser = choice::<References>())]
     references: References,
-    /// Columns of a file without names: address, size, kind, and _ for one to skip
+    /// Columns of a CSV file: address, size, kind, and _ for one to skip, or names of its own, such as address=lbn,size=len
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_short_help = true)]
     columns: Option<Vec<String>>,
 }

@@ -49,6 +49,9 @@ impl<R: BufRead> Entries<R> {
             let what = format!("the input ends after {} of its {bytes} bytes", got - whole);
             return Err(self.wrong_at(self.number + 1, &what));
         }
+        if got == 0 {
+            self.ended()?;
+        }
         Ok(got > 0)
     }
 }

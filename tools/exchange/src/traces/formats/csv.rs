@@ -1,14 +1,17 @@
 //! Lines of addresses, with or without sizes and kinds, between commas, semicolons or tabs.
 //!
 //! A first line with a column `address` names the columns (`address`, `size`, `kind`; others are passed over). Without
-//! one they are these three, or those given. Numbers are decimal, or hexadecimal with `0x`.
+//! one they are these three, or those given. Numbers are decimal, or hexadecimal with `0x`; lines that begin with `#` are
+//! comments, but the first one may name the columns.
 
-use crate::BadQuestion;
+mod columns;
+
 use crate::traces::text::{number, quoted, size};
 use crate::traces::{
     AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, ParserOfColumns, Piece,
     PieceWriter, Reference, TraceExport, TraceImport, Unwritten,
 };
+use columns::Columns;
 use pm_formats::trace::AccessKind;
 use std::io::{self, Write};
 
@@ -17,68 +20,32 @@ pm_registry::registered! {
     pub struct Csv = "csv";
 }
 
-/// Where the columns are.
-#[derive(Clone, Copy, Debug)]
-struct Columns {
-    address: usize,
-    size: Option<usize>,
-    kind: Option<usize>,
-}
-
-impl Columns {
-    /// Where nothing names them.
-    const PLAIN: Self = Self { address: 0, size: Some(1), kind: Some(2) };
-
-    fn named(names: &[String]) -> Option<Self> {
-        let find = |name: &str| names.iter().position(|known| known == name);
-        Some(Self { address: find("address")?, size: find("size"), kind: find("kind") })
-    }
-
-    /// As asked for.
-    fn asked(names: &[String]) -> Result<Self, BadQuestion> {
-        let known = |name: &String| ["address", "size", "kind", "_"].contains(&name.as_str());
-        let doubled = |name: &str| names.iter().filter(|other| *other == name).count() > 1;
-        if !names.iter().all(known) || ["address", "size", "kind"].into_iter().any(doubled) {
-            return Err(BadQuestion::new(
-                "--columns: columns are address, size and kind, once each, and _ for one to skip",
-            ));
-        }
-        Self::named(names).ok_or_else(|| BadQuestion::new("--columns: one of them must be address"))
-    }
-}
-
 /// Knows where the columns are, at the latest from the first line on.
 struct Parser {
-    columns: Option<Columns>,
+    columns: Columns,
 }
 
 impl EntryParser for Parser {
     fn parse(&mut self, line: &[u8]) -> Parsed {
-        if line.trim_ascii().is_empty() {
+        let text = line.trim_ascii();
+        let comment = text.strip_prefix(b"#");
+        if text.is_empty() || (comment.is_some() && self.columns.found().is_some()) {
             return Ok(None);
         }
-        let fields: Vec<Vec<u8>> = line.split(|byte| b",;\t".contains(byte)).map(unquoted).collect();
-        let columns = match self.columns {
-            Some(columns) => columns,
-            None => {
-                let lower = |field: &Vec<u8>| String::from_utf8_lossy(field).to_ascii_lowercase();
-                let names: Vec<String> = fields.iter().map(lower).collect();
-                if let Some(columns) = Columns::named(&names) {
-                    self.columns = Some(columns);
-                    return Ok(None);
-                }
-                if fields.len() > 3 {
-                    return Err("more than address, size and kind; name the columns with --columns".into());
-                }
-                Columns::PLAIN
-            }
+        let fields: Vec<Vec<u8>> = comment.unwrap_or(text).split(|byte| b",;\t".contains(byte)).map(unquoted).collect();
+        let places = match self.columns.found() {
+            Some(places) => places,
+            None => match self.columns.find(&fields, comment.is_some())? {
+                Some(places) => places,
+                None => return Ok(None),
+            },
         };
         let field = |column: usize| fields.get(column).filter(|field| !field.is_empty());
-        let address = field(columns.address).ok_or_else(|| format!("{} has no address", quoted(line)))?;
+        let address = field(places.address).ok_or_else(|| format!("{} has no address", quoted(line)))?;
         let address = number(address)?;
-        let len = columns.size.and_then(field).map(|field| size(number(field)?)).transpose()?;
-        let kind = columns.kind.and_then(field).map_or(Ok(EntryKind::READ), |field| kind(field))?;
-        self.columns = Some(columns);
+        let len = places.size.and_then(field).map(|field| size(number(field)?)).transpose()?;
+        let kind = places.kind.and_then(field).map_or(Ok(EntryKind::READ), |field| kind(field))?;
+        self.columns.settle(places);
         Ok(Some(Reference { kind, address, len }))
     }
 }
@@ -91,8 +58,8 @@ fn unquoted(field: &[u8]) -> Vec<u8> {
 
 fn kind(field: &[u8]) -> Result<EntryKind, String> {
     match &*field.to_ascii_lowercase() {
-        b"r" | b"read" | b"l" | b"ld" | b"load" => Ok(EntryKind::READ),
-        b"w" | b"write" | b"s" | b"st" | b"store" => Ok(EntryKind::WRITE),
+        b"r" | b"read" | b"l" | b"ld" | b"load" | b"get" => Ok(EntryKind::READ),
+        b"w" | b"write" | b"s" | b"st" | b"store" | b"set" => Ok(EntryKind::WRITE),
         b"m" | b"rmw" | b"modify" => Ok(EntryKind::MODIFY),
         b"i" | b"instruction" => Ok(EntryKind::Instruction),
         _ => Err(format!("kind {} is none of read, write, rmw, instruction", quoted(field))),
@@ -109,11 +76,11 @@ impl TraceImport for Csv {
     }
 
     fn parser(&self) -> Box<dyn EntryParser> {
-        Box::new(Parser { columns: None })
+        Box::new(Parser { columns: Columns::unknown() })
     }
 
     fn parser_of_columns(&self) -> Option<ParserOfColumns> {
-        Some(|names| Ok(Box::new(Parser { columns: Some(Columns::asked(names)?) })))
+        Some(|names| Ok(Box::new(Parser { columns: Columns::asked(names)? })))
     }
 
     fn example(&self) -> Example {

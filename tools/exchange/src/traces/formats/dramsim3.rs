@@ -1,6 +1,12 @@
-//! `dramsim3`: transactions for the simulator of memories of that name, such as `0x1000 READ 7`.
+//! `dramsim3`: transactions for the simulator of memories of that name, such as `0x1000 READ 7`; the address is hexadecimal
+//! with or without `0x`.
+//!
+//! That simulator (`src/cpu.cc`, `TraceBasedCPU::ClockTick`) looks for the end of the file before it reads a line, not after:
+//! if the last line has a line end, it issues the transaction twice, where its queue has room at once; if it has none, not at
+//! all, where its queue has no room at once. So what is written ends with a transaction in a cycle that never comes, without a
+//! line end: all before it are issued once. Read, such a transaction is none.
 
-use crate::traces::text::{number, quoted, words};
+use crate::traces::text::{hexadecimal, number, quoted, words};
 use crate::traces::{
     AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
     TraceExport, TraceImport, Unwritten,
@@ -16,13 +22,16 @@ fn parse(line: &[u8]) -> Parsed {
     let wrong = || format!("{} is not an address, READ or WRITE, and a cycle", quoted(line));
     let [address, kind, cycle] = words(line).collect::<Vec<_>>()[..] else { return Err(wrong()) };
     let kind = match kind {
-        b"READ" => EntryKind::READ,
-        b"WRITE" => EntryKind::WRITE,
+        b"READ" | b"read" | b"P_MEM_RD" => EntryKind::READ,
+        b"WRITE" | b"write" | b"P_MEM_WR" => EntryKind::WRITE,
         _ => return Err(wrong()),
     };
-    number(cycle)?;
-    Ok(Some(Reference { kind, address: number(address)?, len: None }))
+    let address = hexadecimal(address)?;
+    Ok((number(cycle)? != NEVER).then_some(Reference { kind, address, len: None }))
 }
+
+/// A cycle that never comes, in 63 bits.
+const NEVER: u64 = i64::MAX.cast_unsigned();
 
 impl TraceImport for Dramsim3 {
     fn shape(&self) -> EntryShape {
@@ -40,7 +49,7 @@ impl TraceImport for Dramsim3 {
 
     fn example(&self) -> Example {
         Example {
-            input: b"0x1000 READ 0\n0x40 WRITE 17\n",
+            input: b"0x1000 READ 0\n40 WRITE 17\n0x0 READ 9223372036854775807",
             entries: &[
                 Reference { kind: EntryKind::READ, address: 4096, len: None },
                 Reference { kind: EntryKind::WRITE, address: 64, len: None },
@@ -61,6 +70,13 @@ impl PieceWriter for Writer {
         self.transactions += 1;
         Ok(())
     }
+
+    fn finish(&mut self, output: &mut dyn Write) -> io::Result<()> {
+        if self.transactions > 0 {
+            write!(output, "0x0 READ {NEVER}")?;
+        }
+        Ok(())
+    }
 }
 
 impl TraceExport for Dramsim3 {
@@ -74,5 +90,26 @@ impl TraceExport for Dramsim3 {
 
     fn writer(&self) -> io::Result<Box<dyn PieceWriter>> {
         Ok(Box::new(Writer { transactions: 0 }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pm_formats::trace::AccessKind;
+
+    #[test]
+    fn the_last_line_is_one_that_is_never_issued_and_has_no_end() {
+        let mut writer = Writer { transactions: 0 };
+        let mut output = vec![];
+        for (address, kind) in [(64, AccessKind::Read), (128, AccessKind::Write)] {
+            writer.write(&Piece { kind, address, len: 64, search: 0 }, &mut output).unwrap();
+        }
+        writer.finish(&mut output).unwrap();
+        let expected = "0x40 READ 0\n0x80 WRITE 1\n0x0 READ 9223372036854775807";
+        assert_eq!(String::from_utf8(output).unwrap(), expected);
+        let mut output = vec![];
+        Writer { transactions: 0 }.finish(&mut output).unwrap();
+        assert!(output.is_empty(), "a trace without accesses is empty");
     }
 }

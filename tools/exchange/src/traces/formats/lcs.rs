@@ -4,7 +4,8 @@
 //! Version 1 has the requests of `oracleGeneral`: time u32, object u64, size u32, next request i64. Version 2 has the
 //! operation u8 and the tenant u24 before the last of them, version 3 a size of 64 bits and the time to live u32 there too;
 //! versions 4 to 8 append 1, 2, 4, 8 or 16 features u32. An object is the byte address of its number. Operations that change
-//! an object are writes, and one that deletes it accesses nothing.
+//! an object are writes, and one that deletes it accesses nothing. The statistics behind the version tell how many requests
+//! there are, as their second number.
 
 use crate::traces::text::size;
 use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
@@ -47,6 +48,9 @@ fn kind(operation: u8) -> Option<EntryKind> {
 #[derive(Default)]
 struct Parser {
     version: u64,
+    /// Requests that the header promises; 0 if it does not.
+    promised: u64,
+    requests: u64,
 }
 
 impl EntryParser for Parser {
@@ -64,10 +68,12 @@ impl EntryParser for Parser {
         if header[HEADER - 8..] != MAGIC {
             return Err("it does not end with the magic number of lcs".into());
         }
+        self.promised = u64_at(header, 24);
         Ok(bytes)
     }
 
     fn parse(&mut self, request: &[u8]) -> Parsed {
+        self.requests += 1;
         let (len, operation) = match self.version {
             1 => (u32_at(request, 12).into(), None),
             2 => (u32_at(request, 12).into(), Some(request[16])),
@@ -75,6 +81,14 @@ impl EntryParser for Parser {
         };
         let Some(kind) = operation.map_or(Some(EntryKind::READ), kind) else { return Ok(None) };
         Ok(Some(Reference { kind, address: u64_at(request, 4), len: Some(size(len)?) }))
+    }
+
+    fn end(&mut self) -> Result<(), String> {
+        let Self { promised, requests, .. } = *self;
+        if promised > 0 && promised != requests {
+            return Err(format!("{requests} requests, and the header promises {promised}"));
+        }
+        Ok(())
     }
 }
 
@@ -170,8 +184,20 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_is_cut_between_requests_is_seen() {
+        let mut header = EXAMPLE[..HEADER].to_vec();
+        header[24] = 2;
+        let mut parser = Parser::default();
+        parser.header(&header).unwrap();
+        for (requests, whole) in [(0, false), (1, false), (2, true), (3, false)] {
+            assert_eq!(parser.end().is_ok(), whole, "{requests} requests");
+            parser.parse(&request(2)).unwrap();
+        }
+    }
+
+    #[test]
     fn what_is_deleted_is_no_access() {
-        let mut parser = Parser { version: 2 };
+        let mut parser = Parser { version: 2, ..Parser::default() };
         let mut deleted = request(2);
         deleted[16] = 9;
         assert_eq!(parser.parse(&deleted), Ok(None));
