@@ -183,6 +183,8 @@ const CACHEGRIND: [(&str, u64); 6] = [
     ("1K,1,32,lru", 10_305),
     ("512,2,128,lru", 8949),
 ];
+/// Misses that libCacheSim 0.3.5 has in those files with an LRU of 8 objects, sizes left out.
+const LIBCACHESIM_MISSES: u64 = 158;
 /// Data references of the same run.
 const REFERENCES: u64 = 86_004;
 
@@ -205,6 +207,34 @@ fn a_real_program_misses_as_often_as_cachegrind_says() {
     // Instructions are left out, and said.
     let all = folder.run("pm-cachesim --cache 8K,2,64,lru sum.lackey.zst");
     same_text("remark", "pm-cachesim: sum.lackey.zst: 340560 instructions left out (--references all)\n", &all.stderr);
+}
+
+#[test]
+fn libcachesims_own_files_are_read_in_every_version() {
+    let folder = Folder::new();
+    let files: [&[u8]; 8] = [
+        include_bytes!("data/lcs/v1.lcs.zst"),
+        include_bytes!("data/lcs/v2.lcs.zst"),
+        include_bytes!("data/lcs/v3.lcs.zst"),
+        include_bytes!("data/lcs/v4.lcs.zst"),
+        include_bytes!("data/lcs/v5.lcs.zst"),
+        include_bytes!("data/lcs/v6.lcs.zst"),
+        include_bytes!("data/lcs/v7.lcs.zst"),
+        include_bytes!("data/lcs/v8.lcs.zst"),
+    ];
+    for (version, file) in (1..).zip(files) {
+        folder.write("t.lcs.zst", file);
+        // The objects, each of which is 4,096 bytes from the next, not their sizes.
+        let csv = folder.run("pm-cachesim -q --format csv --cache 512,full,64,lru --access-size 64 t.lcs.zst").ok();
+        let row = row(csv.text());
+        let count = |name: &str| row[name].parse::<u64>().unwrap();
+        // libCacheSim's own count of misses at 8 objects, by its class LRU.
+        let found = (count("accesses"), count("compulsory"), count("fetches"));
+        assert_eq!(found, (200, 40, LIBCACHESIM_MISSES), "version {version}");
+        // As another format it is refused.
+        let fault = folder.run("pm-cachesim --input oracleGeneral t.lcs.zst");
+        assert!(fault.fails(2).contains("the input is lcs: leave --input out"));
+    }
 }
 
 /// Needs python3 with pycachesim; `PYTHON` names the interpreter.

@@ -80,7 +80,7 @@ impl EntryParser for Parser {
                 self.rest.pop_front()
             }
             _ if FETCHED.iter().any(|range| range.contains(&kind)) => Some(self.instruction(address, size)),
-            0..=LAST => None,
+            _ if kind <= LAST => None,
             _ => return Err(format!("type {kind} is none of drmemtrace")),
         })
     }
