@@ -47,7 +47,10 @@ const ABOUT: &str = "Reorder gather queries so that neighbours in space become n
 const MORE: &str = "\
 The same queries come out, which the digest at the end of the stream proves; only their order, and with it the memory \
 traffic of their searches, is another. What the order itself costs stands in the end block (`pm-view`): queries held, bytes \
-on chip, and bytes written to memory and read back because the store on chip is too small.";
+on chip, and bytes written to memory and read back because the store on chip is too small.
+
+The Hilbert curve is Skilling's (2004), of ten bits a coordinate, whose first step goes along z; in Morton's keys x has the \
+highest bit of each three. Other programs have other curves of these names.";
 
 const EXAMPLES: &str = "\
 Examples:
