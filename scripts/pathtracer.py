@@ -27,7 +27,7 @@ def options():
     parser.add_argument("--seconds", type=float, help="as many passes as fit into so much processor time, instead")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--variant", default="scalar_rgb")
-    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--threads", type=int, default=2, help="at least 2: with one Mitsuba 3.9.1 waits for ever")
     return parser.parse_args()
 
 

@@ -39,7 +39,7 @@ $(LOOK)/%.soft.exr: $(LOOK)/$$(call base_of,$$*).pmp $(call made_with,LOOK_SIZE)
 
 # And what is sharp, where there is such light.
 sharp = $(LAUNCH) sh -c '$(BIN)/pm-queries -q $(call scene_of,$*) $(LOOK_SIZE) --direct-visualisation -t $(THREADS) | \
-    $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).caustics.pmp - -k 50 --kernel cone --base $(LOOK)/$*.soft.exr $1 --no-trace -t $(THREADS)'
+    $(BIN)/pm-gather -q $(LOOK)/$(call base_of,$*).caustics.pmp - -k 50 --base $(LOOK)/$*.soft.exr $1 --no-trace -t $(THREADS)'
 
 $(LOOK)/%.exr $(LOOK)/%.png: $$(if $$(filter $$*,$$(SPARKLING)),$(LOOK)/$$(call base_of,$$*).caustics.pmp $(LOOK)/$$*.soft.exr,$(LOOK)/$$*.pmp) $(call made_with,LOOK_SIZE)
 	$(call $(if $(filter $*,$(SPARKLING)),sharp,soft),$(EXPOSURE_$*) --image $(LOOK)/$*.exr --image $(LOOK)/$*.png)

@@ -16,6 +16,8 @@ pub const SAMPLING: &str = "sampling";
 pub const GUIDE: &str = "guide";
 /// Which photons they are, where they are not all: a word.
 pub const PHOTONS: &str = "photons";
+/// What [`PHOTONS`] says where all came from a light by mirrors and glass alone.
+pub const CAUSTICS: &str = "caustics";
 /// The photon map that was searched: its word.
 pub const MAP: &str = "map";
 /// Photons of a search: a number.

@@ -10,12 +10,13 @@
 //! | `purpose`, `roulette`, `sampling` | random numbers, and what is made of them |
 //! | `bvh`, `surface` | where rays hit |
 //! | `scatter`, `directions`, `reflection`, `lights`, `direct` | what surfaces and lamps do |
-//! | `photon_paths` | photons |
+//! | `aim`, `photon_paths` | photons |
 //! | `eye`, `guide`, `strata` | which points are seen, and in which directions rays go from there |
 //! | `gather_options`, `ray_counts`, `gather_path`, `query`, `gather_rays` | gather rays, and the queries where they end |
 //! | `record_rays`, `cache_records` | cached irradiance |
 //! | `pixel_caster`, `ray_plan` | all of it pixel by pixel, in the order of a stream |
 
+mod aim;
 mod bvh;
 mod cache_records;
 mod direct;

@@ -62,8 +62,12 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let images: Vec<(&PathBuf, Output)> =
         rest.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let report = rest.report.as_ref().map(|path| create_output(path)).transpose()?;
-    let estimate =
-        RadianceEstimate::new(&photons.records, &query_header.materials, photons.emitted_paths, options(&args));
+    let estimate = RadianceEstimate::new(
+        &photons.records,
+        &query_header.materials,
+        photons.emitted_paths,
+        options(&args, &photons),
+    );
     let how = Precomputation {
         map,
         search,
@@ -150,13 +154,13 @@ fn search(args: &Args, map: &dyn AnyMap, photons: &[Photon]) -> Search {
 }
 
 /// What becomes of the photons found.
-fn options(args: &Args) -> EstimateOptions {
+fn options(args: &Args, photons: &Photons) -> EstimateOptions {
     let rest = &args.rest;
     EstimateOptions {
         k: args.k(),
         max_dist: rest.max_dist,
         estimator: rest.estimator,
-        kernel: rest.kernel,
+        kernel: args.kernel(&photons.header),
         edges: rest.edges,
     }
 }

@@ -30,12 +30,12 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     header.expected_records = Some(args.number);
     header.history.push(typed.step(Some(args.seed)));
     if args.caustics {
-        header.set_meaning(meaning::PHOTONS, "caustics");
+        header.set_meaning(meaning::PHOTONS, meaning::CAUSTICS);
     }
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
 
-    let paths = PhotonPaths::new(&scene, args.seed);
+    let paths = if args.caustics { PhotonPaths::of_caustics } else { PhotonPaths::new }(&scene, args.seed);
     let collected = RefCell::new(Collected::new(args.number));
     let mut first_path = 0;
     in_order(
@@ -47,7 +47,7 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             first_path += PATHS;
             Ok(Some(first_path - PATHS))
         },
-        |first: u64| Traced::paths(&paths, first..first + PATHS, args.caustics),
+        |first: u64| Traced::paths(&paths, first..first + PATHS),
         |traced: Traced| {
             let mut collected = collected.borrow_mut();
             let packed = collected.add(&traced, &paths)?;

@@ -59,11 +59,26 @@ impl Lights {
         self.triangles.is_empty()
     }
 
-    /// The light at `u` in [0, 1) of the total power.
-    pub(super) fn choose(&self, u: f32) -> Chosen<'_> {
+    /// The number of the light at `u` in [0, 1) of the total power.
+    pub(super) fn number_at(&self, u: f32) -> usize {
         let at = self.triangles.partition_point(|light| light.cumulative <= f64::from(u));
         // Rounding may leave the last sum below 1.
-        Chosen { light: &self.triangles[at.min(self.triangles.len() - 1)] }
+        at.min(self.triangles.len() - 1)
+    }
+
+    /// The light at `u` in [0, 1) of the total power.
+    pub(super) fn choose(&self, u: f32) -> Chosen<'_> {
+        self.numbered(self.number_at(u))
+    }
+
+    /// The light of a number.
+    pub(super) fn numbered(&self, number: usize) -> Chosen<'_> {
+        Chosen { light: &self.triangles[number] }
+    }
+
+    /// Each light's share of the total power.
+    pub(super) fn shares(&self) -> impl Iterator<Item = f64> {
+        self.triangles.iter().map(|light| light.probability)
     }
 
     /// Radiance that a point reflects of light that comes straight from the lights, the mean over `samples` shadow rays;
@@ -131,8 +146,13 @@ impl Chosen<'_> {
         surfaces.point_before(self.light.triangle, u, v)
     }
 
-    /// Flux of the light over the probability that it was chosen, in watts.
+    /// Flux of the light over the probability that [`Lights::choose`] chooses it, in watts.
     pub(super) fn path_flux(&self) -> Vec3 {
-        Vec3::from(self.light.flux.map(|flux| (flux / self.light.probability) as f32))
+        self.flux_over(self.light.probability)
+    }
+
+    /// Flux of the light over the probability that it was chosen, in watts.
+    pub(super) fn flux_over(&self, probability: f64) -> Vec3 {
+        Vec3::from(self.light.flux.map(|flux| (flux / probability) as f32))
     }
 }

@@ -3,6 +3,7 @@
 //! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, chapter 5. Photons carry flux; at each diffuse hit one
 //! is stored, the first hit included, and then the path goes on with a probability equal to the largest reflectance.
 
+use super::aim::{Aim, Focused};
 use super::lights::Lights;
 use super::purpose::Purpose;
 use super::reflection::Reflection;
@@ -35,37 +36,94 @@ pub struct PhotonPaths<'a> {
     surfaces: Surfaces<'a>,
     lights: Lights,
     seed: u64,
+    /// Where lamps shine, if only caustics are wanted.
+    aim: Option<Aim>,
 }
+
+/// How a path begins.
+struct Start {
+    lamp: usize,
+    normal: Vec3,
+    origin: Vec3,
+    direction: Vec3,
+    /// Flux in watts times the number of emitted paths.
+    power: Vec3,
+}
+
+/// Paths that show where lamps must shine for caustics.
+const PILOT: u64 = 1 << 17;
 
 impl<'a> PhotonPaths<'a> {
     /// Paths through `scene`, a different set for each seed.
     #[must_use]
     pub fn new(scene: &'a Scene, seed: u64) -> Self {
-        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), seed }
+        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), seed, aim: None }
+    }
+
+    /// The same, of caustics alone: lamps shine mostly to where mirrors and glass are, and with as much less power for it. A
+    /// pilot with random numbers of its own shows where that is.
+    #[must_use]
+    pub fn of_caustics(scene: &'a Scene, seed: u64) -> Self {
+        let paths = Self::new(scene, seed);
+        let mut found = vec![];
+        for path in 0..if paths.lights.is_empty() { 0 } else { PILOT } {
+            let random = &mut Random::new(&[seed, Purpose::AimingPath as u64, path]);
+            let start = paths.start(random);
+            let (lamp, normal, direction) = (start.lamp, start.normal, start.direction);
+            let mut power = 0.0;
+            paths.follow(start, random, true, |photon| power += photon.power.element_sum());
+            if power > 0.0 {
+                found.push(Focused { lamp, normal, direction, power });
+            }
+        }
+        let aim = Aim::new(paths.lights.shares(), &found);
+        Self { aim: Some(aim), ..paths }
     }
 
     /// Follows path number `path` and gives each photon it stores to `store`, in order.
-    pub fn trace(&self, path: u64, mut store: impl FnMut(PathPhoton)) {
-        if self.lights.is_empty() {
-            return;
-        }
+    pub fn trace(&self, path: u64, store: impl FnMut(PathPhoton)) {
         let random = &mut Random::new(&[self.seed, Purpose::PhotonPath as u64, path]);
-        let light = self.lights.choose(random.unit());
-        let mut power = light.path_flux();
-        let (mut origin, normal) = light.point(&self.surfaces, random);
-        let mut direction = cosine_direction(normal, random.unit(), random.unit());
+        if !self.lights.is_empty() {
+            self.follow(self.start(random), random, self.aim.is_some(), store);
+        }
+    }
+
+    /// Where a path begins.
+    fn start(&self, random: &mut Random) -> Start {
+        let (lamp, chance) = match &self.aim {
+            None => (self.lights.number_at(random.unit()), None),
+            Some(aim) => {
+                let (lamp, chance) = aim.choose(random.unit());
+                (lamp, Some(chance))
+            }
+        };
+        let light = self.lights.numbered(lamp);
+        let power = chance.map_or_else(|| light.path_flux(), |chance| light.flux_over(chance));
+        let (origin, normal) = light.point(&self.surfaces, random);
+        let (u, v) = (random.unit(), random.unit());
+        let (direction, density) = match self.aim.as_ref().and_then(|aim| aim.directions(lamp)) {
+            None => (cosine_direction(normal, u, v), 1.0),
+            Some(directions) => directions.sample(u, v),
+        };
+        Start { lamp, normal, origin, direction, power: power / density }
+    }
+
+    /// Follows a path; if only caustics are wanted, no further than mirrors and glass lead.
+    fn follow(&self, start: Start, random: &mut Random, caustics: bool, mut store: impl FnMut(PathPhoton)) {
+        let Start { mut origin, mut direction, mut power, .. } = start;
         let mut specular_hits = 0;
         let mut spread_before = false;
         while let Some(point) = self.surfaces.hit(origin, direction) {
             let material = self.surfaces.material(&point);
             let (diffuse, lobe) = spread_shares(material);
-            if spreads(material) {
+            let caustic = specular_hits > 0 && !spread_before;
+            if spreads(material) && (caustic || !caustics) {
                 store(PathPhoton {
                     position: point.position,
                     power,
                     towards_source: -direction,
                     normal: point.facing,
-                    caustic: specular_hits > 0 && !spread_before,
+                    caustic,
                 });
             }
             // One of the ways on is chosen, with a probability equal to the largest channel of what it carries.
@@ -80,6 +138,9 @@ impl<'a> PhotonPaths<'a> {
                 choice -= chance;
                 choice < 0.0
             });
+            if caustics && chosen.unwrap_or(0) < 2 && (diffuse + lobe).max_element() > 0.0 {
+                return;
+            }
             // `scale` is 1 / total (capped); the way itself was chosen with chance / total.
             let weight = |chance: f32| scale * total / chance;
             match chosen.unwrap_or(0) {

@@ -13,4 +13,5 @@ pub(super) enum Purpose {
     LightAtShortEnd = 7,
     PixelSample = 8,
     RecordRay = 9,
+    AimingPath = 10,
 }

@@ -1,5 +1,6 @@
 //! Do rays hit what they should, and is light neither lost nor made?
 
+mod aimed;
 mod direct;
 mod eye;
 mod glossy;

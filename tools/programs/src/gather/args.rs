@@ -2,6 +2,8 @@
 
 use crate::cli::{Chooser, Common, OutputArgs, choice, picture_format, usage};
 use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches as _};
+use pm_formats::Header;
+use pm_formats::vocabulary::meaning;
 use pm_gathering::{Edges, Estimator, Kernel};
 use pm_maps::{LINE, StartRadius, Structure};
 use pm_registry::{Chosen, Registry};
@@ -64,9 +66,9 @@ pub(super) struct Rest {
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub(super) precomputed_share: u32,
-    /// How much a photon counts by its distance
-    #[arg(long, default_value = "constant", hide_short_help = true, value_parser = choice::<Kernel>())]
-    pub(super) kernel: Kernel,
+    /// How much a photon counts by its distance [default: constant; cone where all photons are of caustics]
+    #[arg(long, hide_short_help = true, value_parser = choice::<Kernel>())]
+    kernel: Option<Kernel>,
     /// What the flux is divided by where the photons' disc reaches beyond an edge of the surface
     #[arg(long, default_value = "cut", hide_short_help = true, value_parser = choice::<Edges>())]
     pub(super) edges: Edges,
@@ -156,6 +158,12 @@ impl Args {
     /// Number of photons of a search.
     pub(super) const fn k(&self) -> usize {
         self.rest.k as usize
+    }
+
+    /// How much a photon of this stream counts by its distance. Caustics have sharp edges, which a cone blurs less.
+    pub(super) fn kernel(&self, photons: &Header) -> Kernel {
+        let caustics = photons.meaning(meaning::PHOTONS) == Some(meaning::CAUSTICS);
+        self.rest.kernel.unwrap_or(if caustics { Kernel::Cone } else { Kernel::Constant })
     }
 
     /// Is there anything that cannot be done, whatever the files hold?

@@ -63,7 +63,7 @@ pub(super) fn origin(args: &Args, photons: &Photons, queries: &Header, tally: Ta
     let mut attributes = vec![
         ("photonmap.k", args.rest.k.to_string()),
         ("photonmap.estimator", format!("{:?}", args.rest.estimator)),
-        ("photonmap.kernel", format!("{:?}", args.rest.kernel)),
+        ("photonmap.kernel", format!("{:?}", args.kernel(&photons.header))),
         ("photonmap.edges", format!("{:?}", args.rest.edges)),
         ("photonmap.photons", told(photons.tally)),
         ("photonmap.queries", told(tally)),

@@ -14,6 +14,9 @@ pub struct Args {
     #[arg(short = 'n', long, value_name = "PHOTONS", default_value = "100000")]
     pub(super) number: u64,
     /// Store caustics only: photons that came from a light by mirrors and glass alone; goes with `pm-queries --no-caustics`
+    ///
+    /// Half of the paths are aimed at where a pilot found mirrors and glass, and carry as much less power. `pm-gather` weighs
+    /// such photons by a cone unless told otherwise.
     #[arg(long)]
     pub(super) caustics: bool,
     /// Seed of the random numbers

@@ -12,15 +12,11 @@ pub(super) struct Traced {
 }
 
 impl Traced {
-    /// Traces paths; keeps caustic photons only, if these are wanted alone.
-    pub(super) fn paths(paths: &PhotonPaths<'_>, numbers: Range<u64>, caustics: bool) -> Self {
+    /// Traces paths.
+    pub(super) fn paths(paths: &PhotonPaths<'_>, numbers: Range<u64>) -> Self {
         let mut traced = Self { photons: vec![], path_ends: vec![] };
         for path in numbers {
-            paths.trace(path, |photon| {
-                if photon.caustic || !caustics {
-                    traced.photons.push(photon);
-                }
-            });
+            paths.trace(path, |photon| traced.photons.push(photon));
             traced.path_ends.push(traced.photons.len());
         }
         traced

@@ -15,10 +15,10 @@ pub(super) fn photons(scene: &Scene, wanted: u64, seed: u64) -> u64 {
     if wanted == 0 || !scene.materials.iter().any(|material| sparkles(material.kind)) {
         return 0;
     }
-    let paths = PhotonPaths::new(scene, seed);
+    let paths = PhotonPaths::of_caustics(scene, seed);
     let mut found = 0;
     for path in 0..PROBE {
-        paths.trace(path, |photon| found += u64::from(photon.caustic));
+        paths.trace(path, |photon| found += u64::from(photon.power.max_element() > 0.0));
     }
     wanted.min(found * (MOST_PATHS / PROBE))
 }

@@ -29,11 +29,7 @@ impl Recipe<'_> {
             let soft = self.file("soft.exr");
             let caustics = self.photons("caustics.pmp", self.caustics, &["--caustics"]);
             let seen = self.queries(&["--direct-visualisation"]);
-            let sharp = self.gather(
-                "caustics.pmp",
-                self.args.caustics_k.unwrap_or(CAUSTICS_K),
-                &["--kernel", "cone", "--base", &soft],
-            );
+            let sharp = self.gather("caustics.pmp", self.args.caustics_k.unwrap_or(CAUSTICS_K), &["--base", &soft]);
             let gathered = self.gather("map.pmp", self.args.k, &["--base", &base, "--image", &soft]);
             pipes.push(caustics);
             pipes.push(self.soft(&map, &base, &["--no-caustics"]).then("pm-gather", gathered));

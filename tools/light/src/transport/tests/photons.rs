@@ -12,8 +12,18 @@ pub(in crate::transport) fn incident(
     class: impl Fn(&PathPhoton) -> usize,
     classes: usize,
 ) -> Vec<[(f64, f64); 3]> {
+    incident_by(&PhotonPaths::new(scene, 1), scene, paths, class, classes)
+}
+
+/// The same, by these paths.
+pub(in crate::transport) fn incident_by(
+    tracer: &PhotonPaths<'_>,
+    scene: &Scene,
+    paths: u64,
+    class: impl Fn(&PathPhoton) -> usize,
+    classes: usize,
+) -> Vec<[(f64, f64); 3]> {
     const BATCHES: u64 = 32;
-    let tracer = PhotonPaths::new(scene, 1);
     let emitted = scene.emitted_flux();
     let mut sums = vec![[[0f64; BATCHES as usize]; 3]; classes];
     for path in 0..paths {
