@@ -64,7 +64,7 @@ fn binary_data_is_not_shown() {
         &format!("pm-queries {SMALL}"),
         "pm-reorder hilbert q.pmq",
         "pm-gather map.pmp q.pmq",
-        "pm-gather map.pmp q.pmq --image out.exr",
+        "pm-gather map.pmp q.pmq --report r.csv",
     ] {
         let (outcome, shown) = at_a_terminal(&folder, line, stdout);
         let message = asked_wrongly(&outcome);
@@ -101,6 +101,16 @@ fn results_and_other_files_need_no_dash() {
     }
     at_a_terminal(&folder, "pm-gather map.pmp q.pmq -o t.pmt", stdout).0.ok();
     at_a_terminal(&folder, "pm-gather map.pmp q.pmq --no-trace --image out.exr", stdout).0.ok();
+}
+
+#[test]
+fn a_picture_is_made_at_a_terminal_without_a_trace() {
+    let folder = Folder::with_streams();
+    folder.run("pm-gather map.pmp q.pmq --no-trace --image expected.exr").ok();
+    let (outcome, shown) = at_a_terminal(&folder, "pm-gather map.pmp q.pmq --image out.exr", stdout);
+    outcome.ok();
+    assert!(shown.is_empty());
+    same_bytes("the picture", &folder.read("expected.exr"), &folder.read("out.exr"));
 }
 
 #[test]

@@ -76,7 +76,7 @@ pub use search::Search;
 pub use search_reads::SearchReads;
 pub use start_radius::StartRadius;
 pub use structure::{Setting, Structure};
-pub use structures::{LINE, structures};
+pub use structures::{LINE, fastest, structures};
 pub use vvh::VvhTree;
 pub use wide::{Instructions, WideTree};
 

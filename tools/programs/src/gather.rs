@@ -78,9 +78,9 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
         materials: &query_header.materials,
     };
     let precomputed = if rest.precomputed { Some(precompute(&how, rest.common.threads(), &mut header)?) } else { None };
-    let mut trace = match rest.no_trace {
-        true => None,
-        false => Some(TraceWriter::new(rest.output.create()?, &header)?),
+    let mut trace = match args.trace {
+        true => Some(TraceWriter::new(rest.output.create()?, &header)?),
+        false => None,
     };
     let name = named(&first.queries);
     let (cache, block, beside) = queries::read_cache(&mut blocks, !rest.no_gradients).with_context(|| name.clone())?;
@@ -90,7 +90,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let unit = Film::new(0, scale);
     let answerer = Answerer {
         search,
-        carry: rest.carry,
+        carry: args.carry(),
         describe: report.is_some().then(|| (args.line(), &header.regions[..])),
         map,
         header: &query_header,

@@ -5,13 +5,18 @@ use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches as _};
 use pm_formats::Header;
 use pm_formats::vocabulary::meaning;
 use pm_gathering::{Edges, Estimator, Kernel};
-use pm_maps::{LINE, StartRadius, Structure};
+use pm_maps::{LINE, StartRadius, Structure, fastest};
 use pm_registry::{Chosen, Registry};
+use std::io::{self, IsTerminal as _};
 use std::path::{Path, PathBuf};
 
 /// What was asked.
 pub(super) struct Args {
     pub(super) map: Chosen<dyn Structure>,
+    /// Was it left to us, and nobody asks what it reads?
+    pub(super) hurry: bool,
+    /// Is a trace to be written?
+    pub(super) trace: bool,
     pub(super) first: First,
     pub(super) rest: Rest,
 }
@@ -44,7 +49,7 @@ pub(super) struct Rest {
     /// Start from what the search before knows: changes the reads, not the answer
     ///
     /// All k photons of the query q' before lie within |q - q'| + r_k(q') of q. The chain begins anew with each block of the
-    /// stream, after 4,096 queries at most and at the end of a batch.
+    /// stream, after 4,096 queries at most and at the end of a batch. `--map auto` does so where no trace is written.
     #[arg(long)]
     pub(super) carry: bool,
     /// Also log the second touch of each inner node of kd, when the search comes back to it for its own photon
@@ -85,6 +90,8 @@ pub(super) struct Rest {
     #[arg(long, value_name = "FILE")]
     pub(super) base: Option<PathBuf>,
     /// Write no trace: for the picture, or for speed alone
+    ///
+    /// Nor is one written where a picture is asked for and standard output is a terminal.
     #[arg(long, conflicts_with = "output")]
     pub(super) no_trace: bool,
     /// Describe lookups, map and its building in a .csv, .json or text file
@@ -135,21 +142,37 @@ pub(super) fn command(
     structures: &Registry<dyn Structure>,
 ) -> (Command, impl FnOnce(&ArgMatches) -> Result<Args, clap::Error> + use<>) {
     let map = Arg::new("map").long("map").value_name("MAP").help("Structure of the photon map");
-    let maps = Chooser::option(structures, map);
+    let maps =
+        Chooser::automatic(structures, map, "the paper's where reads are told of, else the fastest, and --carry");
+    let usual = structures.iter().next().expect("there is a structure");
     let command = maps.add_parameters(maps.add_word(First::augment_args(Command::new("pm-gather"))));
     let command = Rest::augment_args(command);
     let command = command.about(ABOUT).long_about(format!("{ABOUT}.\n\n{MORE}")).after_help(EXAMPLES);
     let read = move |matches: &ArgMatches| {
-        Ok(Args {
-            map: maps.read(matches)?,
-            first: First::from_arg_matches(matches)?,
-            rest: Rest::from_arg_matches(matches)?,
-        })
+        let (first, rest) = (First::from_arg_matches(matches)?, Rest::from_arg_matches(matches)?);
+        let trace = rest.writes_trace();
+        let unseen = !trace && rest.report.is_none() && !rest.reread;
+        let of: &[&dyn Structure] = if unseen { &[fastest(), usual] } else { &[usual] };
+        Ok(Args { map: maps.read_or_choose(matches, of)?, hurry: unseen && maps.is_left(matches), trace, first, rest })
     };
     (command, read)
 }
 
+impl Rest {
+    /// Is a trace to be written?
+    fn writes_trace(&self) -> bool {
+        // Who types for a picture and sees a terminal wants no trace there, and would be told so.
+        let nowhere = self.output.output.is_none() && !self.image.is_empty() && io::stdout().is_terminal();
+        !self.no_trace && !nowhere
+    }
+}
+
 impl Args {
+    /// Does a search start from what the one before it knows?
+    pub(super) const fn carry(&self) -> bool {
+        self.rest.carry || self.hurry
+    }
+
     /// Bytes of a line, in which reads are described.
     pub(super) fn line(&self) -> u32 {
         self.map.values.count(LINE.name)
@@ -180,7 +203,7 @@ impl Args {
         }
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(|path| path == Path::new("-"));
         let output = &rest.output.output;
-        if standard(&rest.report) && !rest.no_trace && (output.is_none() || standard(output)) {
+        if standard(&rest.report) && self.trace && (output.is_none() || standard(output)) {
             return Err(usage("--report - and the trace cannot share standard output; name a file or give --no-trace"));
         }
         if rest.base.is_some() && rest.image.is_empty() {
@@ -189,3 +212,6 @@ impl Args {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -104,3 +104,27 @@ fn names_of_the_program_are_not_taken() {
     let chooser = Chooser::positional(&blades, Arg::new("blade"));
     let _ = chooser.add_parameters(Command::new("cut").arg(Arg::new("edge").long("edge")));
 }
+
+#[test]
+fn a_choice_that_is_left_goes_to_the_first_that_takes_what_is_said() {
+    let blades: Registry<dyn Blade> = Registry::new("blade", &[&Knife, &Saw]);
+    let chooser = Chooser::automatic(&blades, Arg::new("blade").long("blade"), "what serves");
+    let ask = |line: &str| {
+        let command = chooser.add_parameters(chooser.add_word(Command::new("cut")));
+        let matches = command.try_get_matches_from(["cut"].into_iter().chain(line.split_whitespace()));
+        let chosen = chooser.read_or_choose(&matches.expect("words that are known"), &[&Saw, &Knife]);
+        chosen.map(|chosen| chosen.entry.word()).map_err(|error| error.to_string())
+    };
+    for (line, word) in [
+        ("", "saw"),
+        ("--blade auto", "saw"),
+        ("--metal brass", "knife"),
+        ("--blade knife", "knife"),
+        ("--blade fret", "saw"),
+        ("--edge 1", "saw"),
+    ] {
+        assert_eq!(ask(line), Ok(word), "{line}");
+    }
+    assert!(ask("--dull --metal brass").unwrap_err().contains("--dull is for --blade saw, not for knife"));
+    assert!(ask("--blade knife --dull").unwrap_err().contains("--dull is for --blade saw, not for knife"));
+}
