@@ -5,6 +5,7 @@ mod block_header;
 mod end;
 mod header;
 mod kind;
+mod order;
 mod reader;
 mod section;
 mod spelling;
@@ -21,5 +22,7 @@ pub use writer::BlockWriter;
 
 /// First bytes of every stream. Like PNG's signature it shows text-mode damage: a high byte, CR LF, and a lone LF.
 pub const MAGIC: [u8; 8] = *b"\x89PMS\r\n\x1a\n";
-/// Version of the format that this library reads and writes.
-pub const FORMAT_VERSION: u16 = 1;
+/// Version of the format that this library writes. It reads every version so far.
+pub const FORMAT_VERSION: u16 = 2;
+/// The first version whose end block proves the order of blocks.
+const PROVES_ORDER: u16 = 2;

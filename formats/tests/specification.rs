@@ -32,7 +32,7 @@ fn block(bytes: &[u8]) -> (u8, u8, u64, u32, Vec<u8>, &[u8]) {
 /// Checks the header by its offsets; the header record, and the blocks after it.
 fn header(bytes: &[u8], kind: u16) -> (&[u8], &[u8]) {
     assert_eq!(bytes[..8], [0x89, 0x50, 0x4d, 0x53, 0x0d, 0x0a, 0x1a, 0x0a]);
-    assert_eq!((u16_at(bytes, 8), u16_at(bytes, 10)), (1, kind));
+    assert_eq!((u16_at(bytes, 8), u16_at(bytes, 10)), (2, kind));
     let len = u32_at(bytes, 12) as usize;
     let record = &bytes[24..24 + len];
     assert_eq!(u64_at(bytes, 16), xxh3_64(&[&bytes[..16], record].concat()));
@@ -94,13 +94,17 @@ fn header_and_end_block_of_photons() {
 
     let (section, _, _, _, end, rest) = block(rest);
     assert_eq!((section, rest.len()), (255, 0));
+    // The proof of order: the bytes before the header record, then the header of the one block.
+    let (end, order) = end.split_at(end.len() - 8);
+    let at = 24 + u32_at(&stream, 12) as usize;
+    assert_eq!(u64_at(order, 0), xxh3_64(&[&stream[..24], &stream[at..at + 40]].concat()));
     let digest = [photon, photon.with_axis(2)]
         .iter()
         .fold(0u128, |sum, photon| sum.wrapping_add(xxh3_128(bytemuck::bytes_of(photon))));
-    assert_eq!((u64_at(&end, 0), u128::from_le_bytes(end[8..24].try_into().unwrap())), (2, digest));
+    assert_eq!((u64_at(end, 0), u128::from_le_bytes(end[8..24].try_into().unwrap())), (2, digest));
     // One stage of one number, which is a count.
     let numbers = &end[end.len() - 12..];
-    assert_eq!((u64_at(&end, 24), u32_at(numbers, 0), u64_at(numbers, 4)), (1, 0, 11));
+    assert_eq!((u64_at(end, 24), u32_at(numbers, 0), u64_at(numbers, 4)), (1, 0, 11));
 }
 
 #[test]

@@ -59,6 +59,13 @@ pub struct End {
     pub stages: Vec<StageReport>,
 }
 
+/// An end block as it is spelled since it proves the order of what stands before it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct SealedEnd {
+    pub(super) end: End,
+    pub(super) order: u64,
+}
+
 impl End {
     /// The latest number measured under this name.
     #[must_use]

@@ -2,9 +2,11 @@
 
 use super::block::Block;
 use super::block_header::{BlockHeader, HEADER_BYTES};
+use super::end::SealedEnd;
+use super::order::{OrderProof, Sequence};
 use super::section::Section;
 use super::spelling::{MAX_RECORD, decode};
-use super::{End, FORMAT_VERSION, Header, MAGIC, StreamKind};
+use super::{End, FORMAT_VERSION, Header, MAGIC, PROVES_ORDER, StreamKind};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
 use std::io::{ErrorKind, Read};
@@ -16,8 +18,11 @@ const PRELUDE_BYTES: usize = 24;
 /// Reads a stream block by block, whatever its records are.
 pub struct BlockReader<R> {
     input: R,
+    version: u16,
     kind: StreamKind,
     header: Header,
+    order: OrderProof,
+    sequence: Sequence,
     blocks: u64,
     records: u64,
     end: Option<End>,
@@ -41,7 +46,7 @@ impl<R: Read> BlockReader<R> {
         }
         let half = |at: usize| u16::from_le_bytes([prelude[at], prelude[at + 1]]);
         let version = half(8);
-        if version != FORMAT_VERSION {
+        if !(1..=FORMAT_VERSION).contains(&version) {
             return Err(Error::Version { found: version, known: FORMAT_VERSION });
         }
         let len = u32::from_le_bytes(prelude[12..16].try_into().expect("four bytes")) as usize;
@@ -60,13 +65,20 @@ impl<R: Read> BlockReader<R> {
         let kind = StreamKind::from_number(half(10))
             .ok_or(damaged("it holds records of a sort this program does not know"))?;
         let header = decode(&bytes[16..]).ok_or(damaged("the header cannot be decoded"))?;
-        Ok(Self { input, kind, header, blocks: 0, records: 0, end: None })
+        let (order, sequence) = (OrderProof::new(&prelude), Sequence::of(&header));
+        Ok(Self { input, version, kind, header, order, sequence, blocks: 0, records: 0, end: None })
     }
 
     /// What the stream is about.
     #[must_use]
     pub const fn header(&self) -> &Header {
         &self.header
+    }
+
+    /// The version of the format that it is written in.
+    #[must_use]
+    pub const fn version(&self) -> u16 {
+        self.version
     }
 
     /// What its records are.
@@ -112,9 +124,11 @@ impl<R: Read> BlockReader<R> {
             return Err(self.incomplete());
         }
         let block = Block::of_header(&header, payload).map_err(|what| self.damaged(what))?;
+        self.sequence.next(block.section, block.meta).map_err(|what| self.damaged(what))?;
         match block.section {
             Section::Records | Section::IrradianceRecords | Section::PixelWeights => {
                 self.blocks += 1;
+                self.order.add(&bytes);
                 // Only the stream's own records are counted; what stands beside them is in the digest.
                 if block.section == Section::Records {
                     self.records += u64::from(block.meta.records);
@@ -122,14 +136,26 @@ impl<R: Read> BlockReader<R> {
                 Ok(Some(block))
             }
             Section::End => {
-                let end: Option<End> = block.decode().and_then(|bytes| decode(&bytes));
-                self.end = Some(end.ok_or_else(|| self.damaged("the end block cannot be decoded"))?);
+                let end = block.decode().and_then(|bytes| self.decode_end(&bytes));
+                let (end, order) = end.ok_or_else(|| self.damaged("the end block cannot be decoded"))?;
+                if order.is_some_and(|order| order != self.order.sum()) {
+                    return Err(self.damaged("the end block speaks of other blocks, or of these in another order"));
+                }
+                self.end = Some(end);
                 if read_up_to(&mut self.input, &mut [0])? > 0 {
                     return Err(self.damaged("bytes follow the end block"));
                 }
                 Ok(None)
             }
         }
+    }
+
+    /// The end, and what proves the order of the blocks before it, which the first version had not.
+    fn decode_end(&self, bytes: &[u8]) -> Option<(End, Option<u64>)> {
+        if self.version < PROVES_ORDER {
+            return Some((decode(bytes)?, None));
+        }
+        decode(bytes).map(|SealedEnd { end, order }| (end, Some(order)))
     }
 
     /// The end block, after [`next_block`](Self::next_block) has returned `None`, given what was counted on the way.

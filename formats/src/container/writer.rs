@@ -1,6 +1,8 @@
 //! Streams, written block by block.
 
 use super::block::Block;
+use super::end::SealedEnd;
+use super::order::OrderProof;
 use super::section::{BlockMeta, Section};
 use super::spelling::encode;
 use super::{End, FORMAT_VERSION, Header, MAGIC, StreamKind};
@@ -14,6 +16,7 @@ use xxhash_rust::xxh3::xxh3_64;
 /// to be unfinished.
 pub struct BlockWriter<W> {
     output: W,
+    order: OrderProof,
 }
 
 impl<W: Write> BlockWriter<W> {
@@ -30,12 +33,12 @@ impl<W: Write> BlockWriter<W> {
         let len = u32::try_from(record.len()).map_err(|_| Error::Invalid("the header is too large".into()))?;
         bytes.extend_from_slice(&len.to_le_bytes());
         bytes.extend_from_slice(&record);
-        output.write_all(&bytes[..16])?;
-        output.write_all(&xxh3_64(&bytes).to_le_bytes())?;
+        let prelude = [&bytes[..16], &xxh3_64(&bytes).to_le_bytes()].concat();
+        output.write_all(&prelude)?;
         output.write_all(&record)?;
         // Whoever reads the pipe can begin (or complain) at once.
         output.flush()?;
-        Ok(Self { output })
+        Ok(Self { output, order: OrderProof::new(&prelude) })
     }
 
     /// Writes a block of records.
@@ -43,7 +46,9 @@ impl<W: Write> BlockWriter<W> {
     /// # Errors
     /// [`Error::Io`].
     pub fn write(&mut self, block: &Block) -> Result<()> {
-        self.output.write_all(&block.header())?;
+        let header = block.header();
+        self.order.add(&header);
+        self.output.write_all(&header)?;
         self.output.write_all(block.bytes())?;
         Ok(())
     }
@@ -53,8 +58,8 @@ impl<W: Write> BlockWriter<W> {
     /// # Errors
     /// [`Error::Io`].
     pub fn finish(mut self, end: &End) -> Result<W> {
-        let meta = BlockMeta::default();
-        self.write(&Block::encode_section(Section::End, meta, &encode(end)?, 0)?)?;
+        let sealed = SealedEnd { end: end.clone(), order: self.order.sum() };
+        self.write(&Block::encode_section(Section::End, BlockMeta::default(), &encode(&sealed)?, 0)?)?;
         self.output.flush()?;
         Ok(self.output)
     }

@@ -41,7 +41,7 @@ pub fn software() -> String {
 }
 
 /// What `--version` prints: the version, and the format of the streams.
-pub const LONG_VERSION: &str = concat!(env!("PM_VERSION"), "\nstream format version 1");
+pub const LONG_VERSION: &str = concat!(env!("PM_VERSION"), "\nstream format version 2");
 
 /// The paragraph on exit codes that ends every help.
 pub const EXIT_CODES: &str = "\
