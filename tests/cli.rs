@@ -145,19 +145,19 @@ fn sizes_are_powers_of_1024() {
 #[test]
 fn quiet_means_no_remarks() {
     let folder = Folder::with_streams();
-    // Photons of one scene and queries of another are worth a remark.
+    // Photons that guide from another scene are worth a remark.
     folder.write("two.mtl", "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl lamp\nKe 9 9 9\n");
     folder.write(
         "two.obj",
         "mtllib two.mtl\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nv 5 0 -5\nv -1 3 -1\nv 1 3 -1\nv 1 3 1\nv -1 3 1\n\
          usemtl floor\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n",
     );
-    folder.run("pm-queries two.obj --eye 0,2,4 --look-at 0,0,0 --size 8x8 --gathers 2 -q -o two.pmq").ok();
-    let line = "pm-gather map.pmp two.pmq -k 5";
+    let line = "pm-queries two.obj --eye 0,2,4 --look-at 0,0,0 --size 8x8 --gathers 2 --guide map.pmp";
     let spoken = folder.run(line);
-    assert_eq!(
-        spoken.fails(0),
-        "pm-gather: the photons and the queries are not of the same scene: their bounds differ"
+    assert!(
+        spoken.fails(0).starts_with("pm-queries: map.pmp is not of this scene: its bounds differ"),
+        "{}",
+        spoken.stderr
     );
     same_bytes("quiet", &spoken.stdout, &folder.run(&format!("{line} -q")).ok().stdout);
     // Errors are no remarks.

@@ -91,10 +91,40 @@ fn a_program_told_to_stop_takes_its_half_written_files_with_it() {
         wait_until("temporary files", || begun(".out.pmq.") && begun(".direct.exr."));
         kill(Pid::from_raw(child.id().cast_signed()), signal).unwrap();
         let outcome = Outcome::when_done(line, child);
-        assert!(outcome.code > 128, "{signal}: exit {}", outcome.code);
+        assert_eq!(outcome.code, 128 + signal as i32, "{signal}");
         assert_eq!(folder.names(), ["out.pmq"], "{signal}");
         assert_eq!(folder.read("out.pmq"), b"before");
     }
+}
+
+#[test]
+fn two_outputs_of_one_name_are_refused_and_so_is_an_output_that_is_read() {
+    let folder = Folder::with_streams();
+    symlink("q.pmq", folder.path("link.pmq")).unwrap();
+    symlink("nowhere.exr", folder.path("link.exr")).unwrap();
+    let names = folder.names();
+    let (queries, photons) = (folder.read("q.pmq"), folder.read("map.pmp"));
+    for (line, said) in [
+        (format!("pm-queries {SMALL} --base x.exr -o x.exr"), "two outputs of one name"),
+        (format!("pm-queries {SMALL} --base x.exr -o ./x.exr"), "two outputs of one name"),
+        (format!("pm-queries {SMALL} --base link.exr -o nowhere.exr"), "two outputs of one name"),
+        ("pm-gather map.pmp q.pmq --image y.exr -o y.exr".into(), "two outputs of one name"),
+        ("pm-gather map.pmp q.pmq --no-trace --image y.exr --image y.exr".into(), "two outputs of one name"),
+        ("pm-gather map.pmp q.pmq --report y.csv -o y.csv".into(), "two outputs of one name"),
+        ("pm-gather map.pmp q.pmq -o map.pmp".into(), "is read and would be written"),
+        ("pm-gather map.pmp q.pmq -o q.pmq".into(), "is read and would be written"),
+        ("pm-reorder hilbert q.pmq -o q.pmq".into(), "is read and would be written"),
+        ("pm-reorder hilbert q.pmq -o link.pmq".into(), "is read and would be written"),
+        ("pm-queries --guide map.pmp -o map.pmp".into(), "is read and would be written"),
+    ] {
+        let outcome = folder.run(&line);
+        let message = outcome.fails(2);
+        assert!(message.contains(said), "`{line}`: {message}");
+        assert_eq!(folder.names(), names, "`{line}`");
+    }
+    assert!(folder.read("q.pmq") == queries && folder.read("map.pmp") == photons);
+    // What is no file may stand for both.
+    folder.run("pm-gather map.pmp q.pmq --report /dev/null -o /dev/null").ok();
 }
 
 #[test]

@@ -24,6 +24,7 @@ mod pipes;
 mod precomputed;
 mod readme;
 mod recipes;
+mod same_scene;
 mod scenes;
 mod situations;
 mod slopes;

@@ -35,7 +35,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
 const PROGRAMS: &str = "programs";
 
 /// Packages that only the programs may depend on: the command line, the terminal, the process.
-const OF_THE_PROGRAMS: &[&str] = &["clap", "clap_complete", "clap_mangen", "indicatif", "ctrlc", "nix"];
+const OF_THE_PROGRAMS: &[&str] = &["clap", "clap_complete", "clap_mangen", "indicatif", "nix", "signal-hook"];
 
 /// Files that may say `unsafe`, each with its reason.
 const UNSAFE: &[(&str, &str)] = &[(

@@ -26,3 +26,5 @@ pub const MAGIC: [u8; 8] = *b"\x89PMS\r\n\x1a\n";
 pub const FORMAT_VERSION: u16 = 2;
 /// The first version whose end block proves the order of blocks.
 const PROVES_ORDER: u16 = 2;
+/// Most pixels of an image; a reader believes no more.
+pub const MAX_PIXELS: u64 = 1 << 28;

@@ -1,6 +1,8 @@
 //! Where a stream came from: one entry for each program that touched it.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::cell::Cell;
 use std::fmt::Write as _;
 
 /// What one program did to a stream. It holds nothing that could differ between two runs of the same work: no clock, no
@@ -18,7 +20,28 @@ pub struct Step {
     /// Name of the file that the stream was read from, as typed; `None` for a pipe, or where there was none to read.
     pub input: Option<String>,
     /// Other streams that were read as a whole, by the name typed: a photon map, say; `-` is standard input.
+    #[serde(deserialize_with = "nested")]
     pub inputs: Vec<(String, Vec<Step>)>,
+}
+
+/// Streams read as a whole for streams read as a whole: as deep as a history goes.
+const DEEPEST: u8 = 64;
+
+thread_local! {
+    /// How deep in a history the step is that is being read.
+    static DEPTH: Cell<u8> = const { Cell::new(0) };
+}
+
+/// Reads the histories inside a history, none deeper than [`DEEPEST`]: a stack has an end.
+fn nested<'de, D: Deserializer<'de>>(input: D) -> Result<Vec<(String, Vec<Step>)>, D::Error> {
+    let depth = DEPTH.get();
+    if depth == DEEPEST {
+        return Err(D::Error::custom("a history is nested too deeply"));
+    }
+    DEPTH.set(depth + 1);
+    let inputs = Vec::deserialize(input);
+    DEPTH.set(depth);
+    inputs
 }
 
 /// The history as commands that could be typed again: what was kept in files first, a line each, and the last pipe last.
@@ -44,7 +67,7 @@ pub fn as_commands(history: &[Step]) -> String {
             }
         }
         pipe += if pipe.is_empty() { "" } else { " | " };
-        pipe += &step.program;
+        pipe += &quoted(&step.program);
         for argument in &step.arguments {
             pipe.push(' ');
             pipe += &quoted(argument);
@@ -58,6 +81,14 @@ fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
+    } else if word.chars().any(char::is_control) {
+        // As bash, zsh and ksh read it: what can be pasted shows all that it does.
+        let spell = |c: char| match c {
+            '\'' | '\\' => format!("\\{c}"),
+            c if c.is_control() => c.to_string().bytes().map(|byte| format!("\\x{byte:02x}")).collect(),
+            c => c.to_string(),
+        };
+        format!("$'{}'", word.chars().map(spell).collect::<String>())
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))
     }

@@ -52,8 +52,9 @@ impl IrradianceRecord {
         let (head, rays) = words.split_at_checked(HEAD)?;
         let float = |at: usize| f32::from_bits(head[at]);
         let strata = [head[8], head[9]];
-        let count = u64::from(strata[0]) * u64::from(strata[1]);
-        let fits = count > 0 && rays.len() as u64 == count * RAY as u64;
+        // Of strata without number the product is none.
+        let count = strata[0].checked_mul(strata[1])? as usize;
+        let fits = count > 0 && Some(rays.len()) == count.checked_mul(RAY);
         fits.then(|| Self {
             pixel: head[0],
             position: [float(1), float(2), float(3)],

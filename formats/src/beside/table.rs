@@ -32,7 +32,8 @@ pub(super) fn decode(block: &Block) -> Option<(Vec<u32>, usize)> {
     let rows = block.meta.records as usize;
     let count = block.raw_len() / 4;
     let width = count / rows.max(1);
-    if width * rows * 4 != block.raw_len() {
+    // A row has a word at least: as many as a header claims and no byte of them are no table.
+    if rows > count || width * rows * 4 != block.raw_len() {
         return None;
     }
     let mut columns = vec![0u32; count];

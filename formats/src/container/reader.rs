@@ -6,7 +6,7 @@ use super::end::SealedEnd;
 use super::order::{OrderProof, Sequence};
 use super::section::Section;
 use super::spelling::{MAX_RECORD, decode};
-use super::{End, FORMAT_VERSION, Header, MAGIC, PROVES_ORDER, StreamKind};
+use super::{End, FORMAT_VERSION, Header, MAGIC, MAX_PIXELS, PROVES_ORDER, StreamKind};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
 use std::io::{ErrorKind, Read};
@@ -64,7 +64,10 @@ impl<R: Read> BlockReader<R> {
         }
         let kind = StreamKind::from_number(half(10))
             .ok_or(damaged("it holds records of a sort this program does not know"))?;
-        let header = decode(&bytes[16..]).ok_or(damaged("the header cannot be decoded"))?;
+        let header: Header = decode(&bytes[16..]).ok_or(damaged("the header cannot be decoded"))?;
+        if header.pixels() > MAX_PIXELS {
+            return Err(damaged("the header speaks of an image of more than 2^28 pixels"));
+        }
         let (order, sequence) = (OrderProof::new(&prelude), Sequence::of(&header));
         Ok(Self { input, version, kind, header, order, sequence, blocks: 0, records: 0, end: None })
     }

@@ -1,5 +1,7 @@
 //! Names under which a header says what its records mean ([`Header::meaning`](crate::Header::meaning)).
 
+/// The scene that photons or queries are of: a digest of its geometry, materials and lights.
+pub const SCENE: &str = "scene";
 /// The order in which the queries were made: an [`OrderLabel`](super::OrderLabel).
 pub const ORDER: &str = "order";
 /// The order that they were put into afterwards: a [`DeferredLabel`](super::DeferredLabel).

@@ -13,10 +13,12 @@
 //! | `statements`, `mtl`, `libraries`, `obj`, `texture`, `ecs` | files, one by one |
 //! | `meaning`, `builder`, `load` | what the files mean together |
 //! | `camera` | from where a scene is seen |
+//! | `digest` | what tells a scene from another |
 
 mod bounds;
 mod builder;
 mod camera;
+mod digest;
 mod ecs;
 mod error;
 mod files;

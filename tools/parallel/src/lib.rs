@@ -3,9 +3,11 @@
 use crossbeam_channel::bounded;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::thread::Builder;
 
 /// Takes jobs from `next` until it says `None`, does `work` on them on `threads` threads, and hands the results to `take`
-/// in the order of the jobs. `next` and `take` run on the calling thread. At most a few jobs per thread are held.
+/// in the order of the jobs. `next` and `take` run on the calling thread. At most a few jobs per thread are held. Where the
+/// system refuses threads, those that it gave do the work, or the calling one.
 ///
 /// # Errors
 /// The first error of `next` or `take`; jobs begun by then are finished and dropped.
@@ -16,18 +18,16 @@ pub fn in_order<I: Send, O: Send, E>(
     mut take: impl FnMut(O) -> Result<(), E>,
 ) -> Result<(), E> {
     if threads <= 1 {
-        while let Some(job) = next()? {
-            take(work(job))?;
-        }
-        return Ok(());
+        return alone(&mut next, &work, &mut take);
     }
     let in_flight = 3 * threads as u64;
     let (job_sender, jobs) = bounded::<(u64, I)>(3 * threads);
     let (result_sender, results) = bounded(3 * threads);
     std::thread::scope(|scope| {
+        let mut given = 0;
         for _ in 0..threads {
             let (jobs, results, work) = (jobs.clone(), result_sender.clone(), &work);
-            scope.spawn(move || {
+            let spawned = Builder::new().spawn_scoped(scope, move || {
                 for (number, job) in jobs {
                     // A panic must reach the caller, who would otherwise wait for this result for ever.
                     let result = catch_unwind(AssertUnwindSafe(|| work(job)));
@@ -36,6 +36,13 @@ pub fn in_order<I: Send, O: Send, E>(
                     }
                 }
             });
+            if spawned.is_err() {
+                break;
+            }
+            given += 1;
+        }
+        if given == 0 {
+            return alone(&mut next, &work, &mut take);
         }
         // Dropped on every way out, so that the threads end.
         let (job_sender, results) = (job_sender, results);
@@ -62,6 +69,18 @@ pub fn in_order<I: Send, O: Send, E>(
             }
         }
     })
+}
+
+/// The same on the calling thread.
+fn alone<I, O, E>(
+    next: &mut impl FnMut() -> Result<Option<I>, E>,
+    work: &impl Fn(I) -> O,
+    take: &mut impl FnMut(O) -> Result<(), E>,
+) -> Result<(), E> {
+    while let Some(job) = next()? {
+        take(work(job))?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

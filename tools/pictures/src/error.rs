@@ -12,6 +12,9 @@ pub enum PictureError {
     /// The bytes are no PNG image.
     #[error("this is no readable PNG image")]
     NotPng(#[source] png::DecodingError),
+    /// It claims more pixels than any picture of ours may have: width and height.
+    #[error("a picture of {}x{} pixels is more than is read, 2^28 pixels", .0[0], .0[1])]
+    TooLarge([u64; 2]),
     /// It cannot be made an EXR image.
     #[error("the EXR image cannot be encoded")]
     ExrNotEncoded(#[source] exr::error::Error),

@@ -1,6 +1,7 @@
 //! Pictures as OpenEXR files.
 
-use crate::{Picture, PictureError, Result, frame};
+use crate::{Picture, PictureError, Result, check_size, frame};
+use exr::meta::MetaData;
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
     ReadChannels as _, ReadLayers as _, Text, WritableImage as _, read,
@@ -32,6 +33,10 @@ pub(crate) fn encode(picture: &Picture, software: &str, attributes: &[(&str, Str
 
 /// The first layer with channels R, G, B.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Picture> {
+    // Before anything is allocated for it.
+    for header in MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(PictureError::NotExr)?.headers {
+        check_size([header.layer_size.width() as u64, header.layer_size.height() as u64])?;
+    }
     let black = |size: exr::math::Vec2<usize>, _: &_| Picture::black([size.width() as u32, size.height() as u32]);
     let set = |picture: &mut Picture, at: exr::math::Vec2<usize>, (r, g, b, _): (f32, f32, f32, f32)| {
         let index = at.y() * picture.size[0] as usize + at.x();

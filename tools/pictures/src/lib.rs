@@ -23,6 +23,7 @@ mod preview;
 mod region;
 mod regions;
 mod sheet;
+mod size;
 
 pub use compare::{Comparison, REL_MSE_EPSILON};
 pub use describe::{Channel, Description};
@@ -35,3 +36,5 @@ pub use preview::Preview;
 pub use region::Region;
 pub use regions::RegionMean;
 pub use sheet::contact_sheet;
+
+use size::check_size;

@@ -1,6 +1,6 @@
 //! Pictures as PNG files of 8 bits.
 
-use crate::{PictureError, Preview, Result};
+use crate::{PictureError, Preview, Result, check_size};
 use std::io::Cursor;
 
 /// A file of 8-bit sRGB samples.
@@ -21,6 +21,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Preview> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(PictureError::NotPng)?;
+    let info = reader.info();
+    check_size([info.width.into(), info.height.into()])?;
     let size = reader.output_buffer_size().ok_or(PictureError::NotPng(png::DecodingError::LimitsExceeded))?;
     let mut bytes = vec![0; size];
     let frame = reader.next_frame(&mut bytes).map_err(PictureError::NotPng)?;

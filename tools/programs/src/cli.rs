@@ -2,6 +2,7 @@
 
 mod choice;
 mod chooser;
+pub(crate) mod claims;
 mod entry;
 mod error;
 mod input;
@@ -10,6 +11,7 @@ mod output;
 mod picture;
 mod program;
 mod progress;
+mod signals;
 mod typed;
 mod usage;
 
@@ -26,6 +28,7 @@ pub use usage::{UsageError, usage};
 
 use clap::{Command, CommandFactory, FromArgMatches};
 use pm_formats::Step;
+use pm_report::printable;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -149,5 +152,5 @@ pub fn main_of<A: FromArgMatches + 'static>(
 pub fn say(text: impl std::fmt::Display) {
     let program = PROGRAM.get().map_or("pm", String::as_str);
     // Nobody is left to tell if standard error is closed.
-    let _ = writeln!(std::io::stderr(), "{program}: {text}");
+    let _ = writeln!(std::io::stderr(), "{program}: {}", printable(&text.to_string()));
 }

@@ -7,6 +7,7 @@ mod description;
 mod photons;
 mod pictures;
 mod queries;
+mod scenes;
 mod stage;
 
 use crate::cli::{Outcome, Output, Program, Typed, create_output, named, usage};
@@ -50,8 +51,8 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let photons = Photons::read(&first.photons)?;
     let mut blocks = queries::open(&args)?;
     let query_header = blocks.header().clone();
-    if photons.header.bounds != query_header.bounds {
-        rest.common.remark("the photons and the queries are not of the same scene: their bounds differ");
+    if !rest.anyway {
+        scenes::compare(&args, &photons.header, &query_header)?;
     }
     let (map, building) = build(&args, &photons)?;
     let map = &*map;

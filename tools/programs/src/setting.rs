@@ -1,7 +1,8 @@
 //! What `pm-photons` and `pm-queries` share: which scene, and how a stream's header speaks of it.
 
-use crate::cli::{Common, usage};
-use pm_formats::{Bounds, Header, Material};
+use crate::cli::{Common, claims, usage};
+use pm_formats::vocabulary::meaning;
+use pm_formats::{Bounds, Header, MAX_PIXELS, Material};
 use pm_light::scene::{Camera, CameraOverrides, FileSystem, LoadOptions, QuadLight, Scene};
 use std::path::PathBuf;
 
@@ -54,8 +55,8 @@ pub struct CameraArgs {
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parsed
-        .filter(|&[w, h]: &[u32; 2]| w > 0 && h > 0 && u64::from(w) * u64::from(h) <= 1 << 32)
-        .ok_or_else(|| "a size such as 512x512 is expected, of at most 2^32 pixels".into())
+        .filter(|&[w, h]: &[u32; 2]| w > 0 && h > 0 && u64::from(w) * u64::from(h) <= MAX_PIXELS)
+        .ok_or_else(|| "a size such as 512x512 is expected, of at most 2^28 pixels".into())
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {
@@ -78,6 +79,7 @@ impl SceneArgs {
             let allow_dark = !self.quad_light.is_empty();
             let options =
                 LoadOptions { clear_glass: self.clear_glass, glossy: self.glossy, allow_dark, strict: self.strict };
+            self.scene.iter().try_for_each(|file| claims::read(file))?;
             Scene::load(&self.scene, &options, &FileSystem)?
         };
         for light in &self.quad_light {
@@ -110,8 +112,8 @@ impl SceneArgs {
             common.remark(&choice.note);
         }
         let [width, height] = choice.camera.size();
-        if u64::from(width) * u64::from(height) > 1 << 32 {
-            return Err(usage(format!("{width}x{height} pixels are more than 2^32")));
+        if u64::from(width) * u64::from(height) > MAX_PIXELS {
+            return Err(usage(format!("{width}x{height} pixels are more than 2^28")));
         }
         Ok(choice.camera)
     }
@@ -129,9 +131,11 @@ pub fn header(scene: &Scene) -> Header {
             exponent: if glossy { material.exponent } else { 0.0 },
         }
     };
-    Header {
+    let mut header = Header {
         bounds: Bounds { min: scene.bounds.min.into(), max: scene.bounds.max.into() },
         materials: scene.materials.iter().map(material).collect(),
         ..Header::empty()
-    }
+    };
+    header.set_meaning(meaning::SCENE, scene.digest());
+    header
 }

@@ -17,10 +17,12 @@ pub mod chart;
 pub mod error;
 pub mod expression;
 pub mod page;
+mod printable;
 pub mod sheet;
 mod table;
 
 pub use error::ReportError;
+pub use printable::printable;
 /// The same by its earlier name.
 pub use table::TableFormat as Format;
 pub use table::{Align, Column, JSON_SCHEMA, Table, TableFormat, Value};

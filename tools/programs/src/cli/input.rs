@@ -1,5 +1,6 @@
 //! Input streams: a file, or standard input by `-`.
 
+use super::claims;
 use super::usage::usage;
 use anyhow::Context as _;
 use pm_formats::{BlockReader, End, Header, Record, RecordReader, Tally};
@@ -48,6 +49,7 @@ pub fn open_bytes(path: &Path) -> anyhow::Result<Input> {
         // Past std's own buffer: blocks are large, and whoever shares the descriptor finds what was not read.
         File::from(stdin.as_fd().try_clone_to_owned().context("standard input")?)
     } else {
+        claims::read(path)?;
         File::open(path).with_context(|| name.clone())?
     };
     if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {

@@ -1,5 +1,6 @@
 //! Outputs: standard output, or a file that appears whole or not at all.
 
+use super::claims;
 use super::usage::usage;
 use anyhow::Context as _;
 use std::fmt;
@@ -86,7 +87,8 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
         let file = File::options().write(true).open(&path).with_context(|| format!("cannot write {name}"))?;
         return Ok(Output { name, target: Target::Direct(BufWriter::with_capacity(CAPACITY, file)) });
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    claims::write(&path)?;
+    let folder = folder_of(&path);
     // A new file gets what the umask leaves, an old one keeps its permissions.
     let mode = existing.as_ref().map_or(0o666, |metadata| metadata.permissions().mode());
     // Held until the file is listed: a signal in between waits, and takes the file with it.
@@ -104,6 +106,11 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
         file.as_file().set_permissions(metadata.permissions()).with_context(|| format!("cannot write {name}"))?;
     }
     Ok(Output { name, target: Target::Atomic { file: BufWriter::with_capacity(CAPACITY, file), path } })
+}
+
+/// The folder that a file is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// The file that a name stands for: a symlink stays and its target is written, be it there or not.
@@ -131,8 +138,13 @@ impl Output {
         let Target::Atomic { file, path } = self.target else { return Ok(()) };
         let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
         let temporary = file.path().to_owned();
+        // On disk before the name is: after a power cut there is the whole file, or what was there before.
+        let on_disk = |file: &File| file.sync_all().with_context(|| format!("cannot write {}", self.name));
+        on_disk(file.as_file())?;
         file.persist(&path).map_err(|error| error.error).with_context(|| format!("cannot write {}", self.name))?;
         unfinished().retain(|(known, _)| *known != temporary);
+        // Not every file system can be asked for its folders.
+        let _ = File::open(folder_of(&path)).and_then(|folder| folder.sync_all());
         Ok(())
     }
 
@@ -171,15 +183,12 @@ pub(super) fn unfinished_files() -> Vec<String> {
     unfinished().iter().map(|(_, path)| path.display().to_string()).collect()
 }
 
-/// A program that is told to stop (interrupt, hang-up, terminate) takes its half-written files with it.
-pub(super) fn remove_temporary_files_on_signals() {
-    let handler = || {
-        for (temporary, _) in unfinished().iter() {
-            let _ = fs::remove_file(temporary);
-        }
-        // 128 + SIGINT, as shells report it.
-        std::process::exit(130);
-    };
-    // Without a handler the program still works; only the temporary file would stay behind.
-    let _ = ctrlc::set_handler(handler);
+/// Ends the process with this code, and the temporary files with it.
+pub(super) fn remove_temporary_files(code: i32) -> ! {
+    // Held to the end: no file appears meanwhile.
+    let unfinished = unfinished();
+    for (temporary, _) in unfinished.iter() {
+        let _ = fs::remove_file(temporary);
+    }
+    std::process::exit(code);
 }

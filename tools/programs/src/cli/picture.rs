@@ -1,7 +1,7 @@
 //! Pictures in files, whose format is known by their names.
 
 use super::usage::usage;
-use super::{named, software};
+use super::{claims, named, software};
 use anyhow::Context as _;
 use pm_pictures::{Description, Frame, Picture, PictureError, PictureFormat, Preview};
 use std::fs;
@@ -59,5 +59,6 @@ pub fn read_preview(path: &Path, stops: f32) -> anyhow::Result<Preview> {
 }
 
 fn bytes(path: &Path) -> anyhow::Result<Vec<u8>> {
+    claims::read(path)?;
     fs::read(path).with_context(|| named(path))
 }

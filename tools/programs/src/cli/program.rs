@@ -1,7 +1,7 @@
 //! A program from its command line to its exit code, in a process of its own or in a test.
 
 use super::outcome::Outcome;
-use super::{EXIT_CODES, LONG_VERSION, PROGRAM, Typed, VERSION, create_output, output, typed};
+use super::{EXIT_CODES, LONG_VERSION, PROGRAM, Typed, VERSION, claims, create_output, signals, typed};
 use clap::{ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::Write as _;
@@ -48,7 +48,7 @@ impl<A> Program<A> {
     /// Runs it as a process: with the arguments of the process, and its outcome told to whoever started it.
     pub fn main(self, run: impl FnOnce(A, &Typed) -> anyhow::Result<()>) -> ExitCode {
         let _ = PROGRAM.set(self.name.to_owned());
-        output::remove_temporary_files_on_signals();
+        signals::watch();
         self.run(std::env::args_os().skip(1), run).tell()
     }
 
@@ -59,6 +59,7 @@ impl<A> Program<A> {
         run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
     ) -> Outcome {
         let Self { name, command, read } = self;
+        claims::clear();
         let raw: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
         if let [flag, what] = &raw[..]
             && flag == "--generate"

@@ -89,6 +89,9 @@ pub(super) struct Rest {
     /// EXR picture to add, such as the direct light that `pm-queries --base` wrote; read after the last query
     #[arg(long, value_name = "FILE")]
     pub(super) base: Option<PathBuf>,
+    /// Take photons of another scene than that of the queries
+    #[arg(long, hide_short_help = true)]
+    pub(super) anyway: bool,
     /// Write no trace: for the picture, or for speed alone
     ///
     /// Nor is one written where a picture is asked for and standard output is a terminal.

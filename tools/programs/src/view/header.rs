@@ -3,12 +3,13 @@
 use indicatif::HumanCount;
 use pm_formats::trace::Coding;
 use pm_formats::{Header, StreamKind, as_commands};
+use pm_report::printable;
 use std::io::{self, Write};
 
 /// Writes what a header says.
-pub(super) fn header(kind: StreamKind, header: &Header, output: &mut impl Write) -> io::Result<()> {
-    let mut line = |name: &str, value: String| writeln!(output, "{name:<12} {value}");
-    line("stream", format!("{}, format version {}", kind.plural(), pm_formats::FORMAT_VERSION))?;
+pub(super) fn header(kind: StreamKind, version: u16, header: &Header, output: &mut impl Write) -> io::Result<()> {
+    let mut line = |name: &str, value: String| writeln!(output, "{:<12} {}", printable(name), printable(&value));
+    line("stream", format!("{}, format version {}", kind.plural(), version))?;
     let corner = |p: [f32; 3]| format!("({}, {}, {})", p[0], p[1], p[2]);
     line("bounds", format!("{} to {}", corner(header.bounds.min), corner(header.bounds.max)))?;
     if header.pixels() > 0 {

@@ -22,7 +22,7 @@ pub(super) fn look(args: &Args, name: &str, stream: BlockReader<Input>, output: 
         if args.streams.len() > 1 {
             writeln!(output, "== {name}")?;
         }
-        header(stream.kind(), stream.header(), output)?;
+        header(stream.kind(), stream.version(), stream.header(), output)?;
         end(&read_to_end(stream, args.voice.quiet)?, output)?;
     }
     Ok(())

@@ -23,7 +23,8 @@ impl Plot {
         // Behind the opening tag: a style for dark pages, and the title for those who hear it.
         let title = format!("<title>{}</title><style>{}</style>", escaped(&look.title), dark_style());
         svg.insert_str(behind_tag(&svg), &title);
-        svg
+        // XML knows no other control characters, however they are written.
+        svg.replace(|c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t'), "\u{fffd}")
     }
 
     /// Draws the plot as a part of an HTML page, which brings the [`dark_style`] and may stretch it. The title is not

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{Align, Table, Value};
+use crate::printable;
 
 /// Writes `table` with two spaces between columns and none at the end of a line. A long name such as
 /// `fetches_per_query` takes two lines, so that its column need not be as wide.
@@ -44,7 +45,7 @@ fn cell(value: &Value) -> String {
         Value::Int(n) => n.to_string(),
         Value::Signed(n) => n.to_string(),
         Value::Float(x, digits) => float(*x, *digits),
-        Value::Text(text) => printable(text),
+        Value::Text(text) => printable(text).into_owned(),
     }
 }
 
@@ -64,11 +65,6 @@ fn float(x: f64, digits: u8) -> String {
         return scientific;
     }
     format!("{:.*}", (digits - 1 - exponent).max(0) as usize, x)
-}
-
-/// Names come from streams that others wrote: a line break or an escape sequence in one must not reach the terminal.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 #[cfg(test)]
