@@ -73,14 +73,6 @@ fn a_run_that_fails_leaves_nothing_and_keeps_what_was_there() {
 }
 
 #[test]
-fn a_file_may_be_written_over_itself() {
-    let folder = folder();
-    let expected = check(&folder.read("q.pmq")).unwrap();
-    folder.run("pm-reorder hilbert q.pmq -o q.pmq").ok();
-    assert_eq!(check(&folder.read("q.pmq")).unwrap(), expected);
-}
-
-#[test]
 fn a_program_told_to_stop_takes_its_half_written_files_with_it() {
     for signal in [Signal::SIGTERM, Signal::SIGINT, Signal::SIGHUP] {
         let folder = Folder::new();

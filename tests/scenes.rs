@@ -1,6 +1,8 @@
 //! Do scenes that strangers bring, and those that `pm-scene` makes, mean what they should?
 
 use crate::support::{Folder, same_bytes};
+use nix::sys::stat::Mode;
+use nix::unistd::mkfifo;
 use pm_light::scene::{FileSystem, LoadOptions, Material, MaterialKind, Scene};
 use pm_light::transport::PhotonPaths;
 use std::path::{Path, PathBuf};
@@ -308,4 +310,29 @@ fn a_camera_inside_a_wall_is_named() {
     assert_eq!(inside.code, 0);
     assert!(inside.stderr.contains("inside a wall"), "{}", inside.stderr);
     folder.run(&line("0,0.3,0.4")).ok();
+}
+
+#[test]
+fn what_a_scene_names_is_read_only_if_it_is_a_file() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("room")).unwrap();
+    folder.write(
+        "room/room.obj",
+        "mtllib ../m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n\
+         usemtl floor\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n",
+    );
+    let library = |texture: &str| format!("newmtl floor\nmap_Kd {texture}\nKd .5 .5 .5\nnewmtl lamp\nKe 9 9 9\n");
+    folder.write("m.mtl", library("wood.png"));
+    let run = || folder.run("pm-photons room/room.obj -n 50 -o x.pmp").stderr;
+    let said = run();
+    assert!(said.contains("room/room.obj: names files outside its folder, such as \"../m.mtl\""), "{said}");
+    // A pipe without a writer would be waited for for ever.
+    mkfifo(&folder.path("wood.png"), Mode::S_IRWXU).unwrap();
+    assert!(run().contains("\"wood.png\" cannot be read: it is not a regular file"), "{}", run());
+    folder.write("m.mtl", library("/dev/zero"));
+    assert!(run().contains("\"zero\" cannot be read: it is not a regular file"), "{}", run());
+    std::fs::remove_file(folder.path("m.mtl")).unwrap();
+    mkfifo(&folder.path("m.mtl"), Mode::S_IRWXU).unwrap();
+    let outcome = folder.run("pm-photons room/room.obj -n 50 -o x.pmp");
+    assert!(outcome.code == 1 && outcome.stderr.contains("nothing emits light"), "{}", outcome.stderr);
 }

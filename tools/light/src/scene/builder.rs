@@ -88,7 +88,7 @@ impl Builder {
                 let texture = mtl
                     .diffuse_texture
                     .as_ref()
-                    .map(|statement| texture::mean_colour(&place.file, statement, files, &mut self.textures));
+                    .map(|statement| texture::mean_colour(&place.file, statement, files, &mut self.textures, warnings));
                 decide(mtl, options, texture, place, warnings)
             }
             None => {

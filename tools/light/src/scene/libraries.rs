@@ -4,7 +4,7 @@
 //! path that the file had on the machine they ran on.
 
 use super::error::{FileLine, SceneError};
-use super::files::{Files, places};
+use super::files::{Files, places, remark_if_outside};
 use super::statements::Statement;
 use super::warnings::Warnings;
 use std::io;
@@ -75,9 +75,11 @@ fn look(obj: &Path, name: &str, at_line: &FileLine, files: &dyn Files, warnings:
     let name = name.replace('\\', "/");
     let mut error = None;
     for path in places(obj, &name) {
-        match files.read(&path) {
+        match files.read_named(&path) {
             Ok(bytes) => {
-                if error.is_some() {
+                if error.is_none() {
+                    remark_if_outside(obj, &name, warnings);
+                } else {
                     warnings.say(format!("{at_line}: there is no {name:?}; {} is taken for it", path.display()));
                 }
                 return Ok((path, bytes));

@@ -55,7 +55,7 @@ fn embree_lights(
 ) -> Result<Vec<PlacedLight>, SceneError> {
     let mut all = vec![];
     for path in paths.iter().map(|path| path.with_extension("ecs")) {
-        let Ok(bytes) = files.read(&path) else { continue };
+        let Ok(bytes) = files.read_named(&path) else { continue };
         let (lights, warning) = ecs::lights(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
         all.extend(lights);
         warning.into_iter().for_each(|warning| warnings.say(warning));

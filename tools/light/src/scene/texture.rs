@@ -2,9 +2,11 @@
 
 mod mean;
 
-use super::files::{Files, places};
+use super::files::{Files, places, remark_if_outside};
+use super::warnings::Warnings;
 use mean::mean;
 use std::collections::HashMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub(crate) use mean::Texture;
@@ -15,21 +17,35 @@ pub(crate) fn mean_colour(
     statement: &str,
     files: &dyn Files,
     known: &mut HashMap<PathBuf, Texture>,
+    warnings: &mut Warnings,
 ) -> Texture {
     let name = file_name(statement).trim_matches('"').replace('\\', "/");
     let places = places(mtl, &name);
     if let Some(texture) = places.iter().find_map(|path| known.get(path)) {
         return texture.clone();
     }
-    let found = places.iter().find_map(|path| files.read(path).ok().map(|bytes| (path.clone(), bytes)));
+    let mut why = None;
+    let found = places.iter().find_map(|path| match files.read_named(path) {
+        Ok(bytes) => Some((path.clone(), bytes)),
+        Err(error) => {
+            why = why.take().or((error.kind() != ErrorKind::NotFound).then_some(error));
+            None
+        }
+    });
     let (path, texture) = match found {
         Some((path, bytes)) => {
+            if path == places[0] {
+                remark_if_outside(mtl, &name, warnings);
+            }
             let texture = mean(&path, &bytes);
             (path, texture)
         }
         None => {
             let bare = name.rsplit('/').next().unwrap_or(&name);
-            (places[0].clone(), Err(format!("{bare:?} cannot be read")))
+            (
+                places[0].clone(),
+                Err(why.map_or(format!("{bare:?} cannot be read"), |why| format!("{bare:?} cannot be read: {why}"))),
+            )
         }
     };
     known.insert(path, texture.clone());
