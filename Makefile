@@ -8,7 +8,7 @@ BIN := target/release
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check full-size causes stability bench man clean
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability bench man clean
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{11\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -105,6 +105,11 @@ out/scenes/%.obj: $(call made_with,PROGRAMS)
 
 test: ## All tests, optimised
 	$(CARGO) test --workspace --release
+
+test-python: programs ## The reader in Python against the streams that are kept and those written now (needs python3 and its packages)
+	python3 -m venv target/python
+	target/python/bin/pip install -q ./formats/python
+	cd formats/python && PM_BIN=$(abspath $(BIN)) $(CURDIR)/target/python/bin/python -m unittest
 
 check: ## Formatting and lints
 	$(CARGO) fmt --all --check
