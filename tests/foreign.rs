@@ -237,6 +237,27 @@ fn libcachesims_own_files_are_read_in_every_version() {
     }
 }
 
+#[test]
+fn spikes_own_log_has_the_counts_of_spikes_own_caches() {
+    let folder = Folder::new();
+    folder.write("spike.log.zst", include_bytes!("data/spike.log.zst"));
+    // What `spike --dc=SETS:1:LINE` says: misses of reads and of writes, lines written back before the end.
+    for (cache, line, misses, written_back, lines) in [
+        ("512,1,32,lru", 32, 251 + 201, 435, 16),
+        ("512,1,64,lru", 64, 136 + 93, 220, 8),
+        ("1K,1,16,lru", 16, 401 + 401, 644, 64),
+    ] {
+        let csv = folder.run(&format!("pm-cachesim -q --format csv --cache {cache} spike.log.zst")).ok();
+        let row = row(csv.text());
+        let count = |name: &str| row[name].parse::<u64>().unwrap();
+        let found = (&*row["order"], count("accesses"), count("raw_bytes"), count("fetches"));
+        assert_eq!(found, ("spike", 2401 + 4089, 10_808 + 27_712, misses), "{cache}");
+        // Here what is left dirty in the cache is written back at the end.
+        let at_the_end = count("bytes_written_back") / line - written_back;
+        assert!(at_the_end <= lines, "{cache}: {at_the_end}");
+    }
+}
+
 /// Needs python3 with pycachesim; `PYTHON` names the interpreter.
 #[test]
 #[ignore = "needs python3 with the package pycachesim"]
