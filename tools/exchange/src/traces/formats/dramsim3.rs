@@ -94,22 +94,4 @@ impl TraceExport for Dramsim3 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use pm_formats::trace::AccessKind;
-
-    #[test]
-    fn the_last_line_is_one_that_is_never_issued_and_has_no_end() {
-        let mut writer = Writer { transactions: 0 };
-        let mut output = vec![];
-        for (address, kind) in [(64, AccessKind::Read), (128, AccessKind::Write)] {
-            writer.write(&Piece { kind, address, len: 64, search: 0 }, &mut output).unwrap();
-        }
-        writer.finish(&mut output).unwrap();
-        let expected = "0x40 READ 0\n0x80 WRITE 1\n0x0 READ 9223372036854775807";
-        assert_eq!(String::from_utf8(output).unwrap(), expected);
-        let mut output = vec![];
-        Writer { transactions: 0 }.finish(&mut output).unwrap();
-        assert!(output.is_empty(), "a trace without accesses is empty");
-    }
-}
+mod tests;

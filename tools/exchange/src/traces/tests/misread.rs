@@ -117,3 +117,18 @@ fn empty_lines_and_marks_are_passed_over() {
     // For bare addresses it is no mark.
     assert_eq!(read(b"\xef\xbb\xbf\0", &plain(Some("raw32"))), Ok(("raw32", vec![(R, 0xbf_bbef, 1)])));
 }
+
+#[test]
+fn what_ends_too_soon_is_seen_where_the_format_can_tell() {
+    let whole = imports().find("drmemtrace").unwrap().example().input;
+    let mut promising = lcs(3);
+    promising[24] = 3;
+    assert!(read(whole, &plain(None)).is_ok() && read(&promising, &plain(None)).is_ok());
+    // Between two entries, where nothing else is missing.
+    let fault = read(&whole[..whole.len() - 12], &plain(None)).unwrap_err();
+    assert_eq!(fault, "the end: no footer: the trace is cut");
+    let fault = read(&promising[..promising.len() - 28], &plain(None)).unwrap_err();
+    assert_eq!(fault, "the end: 2 requests, and the header promises 3");
+    let unlogged = b"core   0: 0x0000000080000044 (0x0005a503) lw      a0, 0(a1)\n";
+    assert!(read(unlogged, &plain(Some("spike"))).unwrap_err().contains("--log-commits"));
+}

@@ -11,7 +11,7 @@ use std::io::{self, Read, Seek as _, SeekFrom, Take};
 use std::sync::Arc;
 use zip::{CompressionMethod, ZipArchive};
 
-/// How the names of the parts begin that drmemtrace writes (`clients/drcachesim/common/zipfile_ostream.h`, `chunk.0000`).
+/// How the names of the parts begin that drmemtrace writes (`TRACE_CHUNK_PREFIX`, `chunk.0000`).
 const PART: &str = "chunk.";
 
 /// Where a file of the archive lies.
