@@ -18,11 +18,12 @@ FURNACES := $(foreach k,10 30 100,furnace-direct-$k furnace-gather-$k sphere-dir
     $(foreach scene,grey mm far,$(scene)-direct-100 $(scene)-gather-100)
 BOXES := box box-plain box-mm box-far
 BATCHES := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16
-PICTURES := $(FURNACES) $(BOXES) cached full
+PICTURES := $(FURNACES) $(BOXES) cached full gap
 EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
 
-accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) ## Is the light right? Furnaces, an integrating sphere, a path tracer's box: three minutes
+accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) $(ACCURACY)/report.html ## Is the light right, and what does it cost? Furnaces, path tracers' rooms, recipes: ten minutes
 	@$(BIN)/pm-sweep derive accuracy $(KNOWN) $(filter %.csv,$^)
+	@echo "Error against processor time: $(ACCURACY)/report.html"
 
 # The rectangles of a picture that something is known of.
 regions = $(shell $(BIN)/pm-sweep derive regions --with experiment=$1 $(KNOWN))
@@ -113,3 +114,16 @@ $(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
 
 $(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv $(call made_with,PROGRAMS)
 	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | $(BIN)/pm-sweep derive mean -' > $@
+
+# A room lit through a gap, by the recipe of pm-picture: few photons come through, so there are more of them.
+$(ACCURACY)/gap.exr: out/scenes/gap.obj $(call made_with,PROGRAMS) | $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-picture -q $< --size 64x64 -n 4000000 -t $(THREADS) --image $@
+
+# Error against processor time: recipes in five rooms, and with MITSUBA=PYTHON a path tracer beside them.
+MITSUBA ?=
+export MITSUBA
+$(ACCURACY)/frontier.csv: out/recipes.csv $(if $(MITSUBA),out/pathtracer.csv) $(call made_with,MITSUBA REPORTING) | $(ACCURACY)
+	@$(BIN)/$(JOIN) $(inputs) -o $@
+
+$(ACCURACY)/report.html: scripts/accuracy.toml $(ACCURACY)/frontier.csv $(call made_with,REPORTING)
+	$(BIN)/pm-chart -q --page $< -o $@

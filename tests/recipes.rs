@@ -16,7 +16,12 @@ fn the_pipes_that_are_printed_make_the_picture() {
     }
     for (case, lines) in [
         (format!("pm-picture {SMALL} --eye -0.1,0.5,1.9 --vfov 30 --clear-glass --seed 3"), 4),
-        ("pm-picture --size 16x12 -n 3000 --caustics 0 --samples 2 --gathers 3 --light-samples 2 -k 5".to_owned(), 2),
+        (
+            "pm-picture --size 16x12 -n 3000 --caustics 0 --samples 2 --gathers 3 --light-samples 2 -k 5 \
+          --map kd --queries '--min-gather-dist 0.01' --gather '--precomputed --edges sloped'"
+                .to_owned(),
+            2,
+        ),
         (format!("pm-picture 'my room.obj' {SMALL} --guide --exposure -1"), 2),
     ] {
         let printed = folder.sh(&format!("{case} --image x.exr --image x.png --dry-run")).ok().text().to_owned();
@@ -69,6 +74,7 @@ fn what_is_asked_wrongly_is_said_before_anything_runs() {
         ("pm-picture --samples 0 --image x.exr", 2, "--samples"),
         ("pm-picture --image nowhere/x.exr", 1, "no folder nowhere"),
         ("pm-picture --vfov 0 --image x.exr", 1, "vfov"),
+        ("pm-picture --map nosuch --image x.exr", 2, "wide"),
         ("pm-picture --caustics 0 --caustics-k 9 --image x.exr", 2, "--caustics-k"),
     ] {
         let outcome = folder.run(line);

@@ -1,8 +1,9 @@
 //! What `pm-picture` may be asked.
 
-use crate::cli::Common;
+use crate::cli::{Common, entry};
 use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
+use pm_maps::{Structure, structures};
 use std::path::PathBuf;
 
 /// Make a picture: photons, gather rays, direct light, and caustics in a map of their own; print the pipes that do it.
@@ -45,9 +46,18 @@ pub(super) struct Args {
     /// Nearest photons of caustics that are asked for at each point seen [default: 50]
     #[arg(long, value_name = "K", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub(super) caustics_k: Option<u32>,
+    /// Structure of the photon maps
+    #[arg(long, value_name = "MAP", default_value = "wide", hide_short_help = true, value_parser = entry(&structures()))]
+    pub(super) map: &'static dyn Structure,
     /// Send more gather rays to where photons come from: for light that comes through gaps or off small bright spots
     #[arg(long)]
     pub(super) guide: bool,
+    /// Further options of the pm-queries that casts gather rays, such as `--irradiance-cache 0.1`
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, hide_short_help = true, value_parser = words)]
+    pub(super) queries: Option<Words>,
+    /// Further options of the pm-gather that answers them, such as `--precomputed`
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, hide_short_help = true, value_parser = words)]
+    pub(super) gather: Option<Words>,
     /// Folder in which photons, direct light and the picture without caustics are kept
     #[arg(long, value_name = "FOLDER")]
     pub(super) keep: Option<PathBuf>,
@@ -66,6 +76,14 @@ Examples:
   pm-picture --image cornell.exr --image cornell.png -t 2
   pm-picture room.obj --eye 0,1.6,4 --look-at 0,1,0 --image room.exr --keep streams
   pm-picture room.obj --image room.exr --samples 256 --dry-run";
+
+/// Options of another program, taken apart as a shell does.
+#[derive(Clone)]
+pub(super) struct Words(pub(super) Vec<String>);
+
+fn words(text: &str) -> Result<Words, &'static str> {
+    shlex::split(text).map(Words).ok_or("a quote is not closed")
+}
 
 impl Args {
     /// How the scene is loaded here: without a word.

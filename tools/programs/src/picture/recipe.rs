@@ -1,11 +1,14 @@
 //! The recipe of a picture: which pipes, in which order.
 
-use super::args::Args;
+use super::args::{Args, Words};
 use crate::pipe::Pipe;
 use std::path::{Path, PathBuf};
 
 /// Photons of caustics that each point seen asks for, unless others are asked for.
 const CAUSTICS_K: u32 = 50;
+
+/// Eye rays of a pixel that ask for caustics at most: their map is what blurs them then.
+const MOST_SEEN: u32 = 16;
 
 /// What is cooked, and from what.
 pub(super) struct Recipe<'a> {
@@ -25,17 +28,19 @@ impl Recipe<'_> {
     pub(super) fn pipes(&self) -> Vec<Pipe> {
         let mut pipes = vec![self.photons("map.pmp", self.args.photons, &[])];
         let (map, base) = (self.file("map.pmp"), self.file("direct.exr"));
+        let further: Vec<&str> = further(&self.args.gather).collect();
         if self.caustics > 0 {
             let soft = self.file("soft.exr");
             let caustics = self.photons("caustics.pmp", self.caustics, &["--caustics"]);
-            let seen = self.queries(&["--direct-visualisation"]);
+            let seen = self.queries(self.args.samples.min(MOST_SEEN), &["--direct-visualisation"]);
             let sharp = self.gather("caustics.pmp", self.args.caustics_k.unwrap_or(CAUSTICS_K), &["--base", &soft]);
-            let gathered = self.gather("map.pmp", self.args.k, &["--base", &base, "--image", &soft]);
+            let gathered =
+                self.gather("map.pmp", self.args.k, &[&further[..], &["--base", &base, "--image", &soft]].concat());
             pipes.push(caustics);
             pipes.push(self.soft(&map, &base, &["--no-caustics"]).then("pm-gather", gathered));
             pipes.push(seen.then("pm-gather", sharp.into_iter().chain(self.images())));
         } else {
-            let gathered = self.gather("map.pmp", self.args.k, &["--base", &base]);
+            let gathered = self.gather("map.pmp", self.args.k, &[&further[..], &["--base", &base]].concat());
             pipes.push(self.soft(&map, &base, &[]).then("pm-gather", gathered.into_iter().chain(self.images())));
         }
         pipes
@@ -61,11 +66,12 @@ impl Recipe<'_> {
         if self.args.guide {
             words.extend(["--guide", map]);
         }
-        self.queries(&words)
+        words.extend(further(&self.args.queries));
+        self.queries(self.args.samples, &words)
     }
 
-    fn queries(&self, options: &[&str]) -> Pipe {
-        let Args { samples, seed, common, .. } = self.args;
+    fn queries(&self, samples: u32, options: &[&str]) -> Pipe {
+        let Args { seed, common, .. } = self.args;
         let mut words = said(&["-q", "--samples", &samples.to_string()]);
         words.extend(said(options));
         words.extend(said(&["--seed", &seed.to_string(), "-t", &common.threads.to_string()]));
@@ -75,7 +81,7 @@ impl Recipe<'_> {
     /// What a map answers queries from standard input with.
     fn gather(&self, photons: &str, k: u32, options: &[&str]) -> Vec<String> {
         let threads = self.args.common.threads.to_string();
-        let mut words = said(&["-q", &self.file(photons), "-", "--map", "wide", "-k", &k.to_string()]);
+        let mut words = said(&["-q", &self.file(photons), "-", "--map", self.args.map.word(), "-k", &k.to_string()]);
         words.extend(said(options));
         words.extend(said(&["--no-trace", "-t", &threads]));
         words
@@ -91,6 +97,10 @@ impl Recipe<'_> {
     fn file(&self, name: &str) -> String {
         if self.folder == Path::new(".") { name.to_owned() } else { self.folder.join(name).display().to_string() }
     }
+}
+
+fn further(options: &Option<Words>) -> impl Iterator<Item = &str> {
+    options.iter().flat_map(|words| words.0.iter().map(String::as_str))
 }
 
 fn said(words: &[&str]) -> Vec<String> {
