@@ -204,6 +204,13 @@ fn a_real_program_misses_as_often_as_cachegrind_says() {
         equal += u32::from(more == 0);
     }
     assert_eq!(equal, 4);
+    // Where a reference counts once, all are equal.
+    for (cache, misses) in CACHEGRIND {
+        let csv = folder.run(&format!("pm-cachesim -q --format csv --span once --cache {cache} sum.lackey.zst")).ok();
+        let row = row(csv.text());
+        assert_eq!((&*row["accesses"], &*row["fetches"]), (&*REFERENCES.to_string(), &*misses.to_string()), "{cache}");
+    }
+    let _ = folder.run("pm-cachesim --span once --curve sum.lackey.zst").fails(2);
     // Instructions are left out, and said.
     let all = folder.run("pm-cachesim --cache 8K,2,64,lru sum.lackey.zst");
     same_text("remark", "pm-cachesim: sum.lackey.zst: 340560 instructions left out (--references all)\n", &all.stderr);
@@ -282,4 +289,110 @@ fn counts_equal_those_of_pycachesim() {
         let written = row["bytes_written_back"].parse::<u64>().unwrap() / line;
         assert_eq!(theirs.text().trim(), format!("{} {written}", row["fetches"]), "{trace} {cache}");
     }
+}
+
+/// Addresses of 64 bits, little-endian.
+fn raw64(addresses: impl Iterator<Item = u64>) -> Vec<u8> {
+    addresses.flat_map(u64::to_le_bytes).collect()
+}
+
+#[test]
+fn pages_and_identifiers_may_lie_anywhere() {
+    let folder = Folder::new();
+    // More runs of pages than an access can name regions; identifiers that are hashes, as addresses and as numbers of lines.
+    folder.write("pages", raw64((0..100_000).map(|i| (3 * i) << 12)));
+    folder.write("shifted", raw64((0..65_537).map(|i| i << 40)));
+    folder.write("hashes", raw64((1..=65_537u64).map(|i| i.wrapping_mul(0x9e37_79b9_7f4a_7c15))));
+    for (file, options, fetches) in [
+        ("pages", "", "100000"),
+        ("shifted", "", "65537"),
+        ("hashes", "", "65537"),
+        ("hashes", "--address-unit 128", "65537"),
+    ] {
+        for cache in ["128K,full,128,lru", "96K,8,128,lru", "64K,8,128,min"] {
+            let line = format!("pm-cachesim --input raw64 {options} --cache {cache} --format csv {file}");
+            let csv = folder.run(&line).ok();
+            let row = row(csv.text());
+            assert_eq!(row["fetches"], fetches, "{line}");
+            let blocks = row["blocks"].parse::<u64>().unwrap();
+            assert!(blocks <= 32 * fetches.parse::<u64>().unwrap(), "{line}: {blocks} blocks");
+        }
+    }
+    let csv = folder.run("pm-cachesim --input raw64 --format csv pages").ok();
+    assert_eq!((&*row(csv.text())["blocks"], &*row(csv.text())["fetches_per_block"]), ("3200000", "0.03125"));
+}
+
+#[test]
+fn a_foreign_trace_goes_through_two_levels_and_out_again() {
+    let folder = Folder::new();
+    folder.write("sum.lackey.zst", include_bytes!("data/sum.lackey.zst"));
+    let two = "--cache 2K,4,64,lru --cache 16K,8,64,plru --cache none --format csv";
+    // In, and all counts are those of the foreign trace, but for the commands that it came by.
+    folder.run("pm-view -q --import trace --references all sum.lackey.zst -o sum.pmt").ok();
+    let counts = |line: &str| {
+        let csv = folder.run(line).ok();
+        let mut of_all: Vec<BTreeMap<String, String>> = vec![];
+        for text in csv.text().lines().skip(1) {
+            let mut row = row(&format!("{}\n{text}", csv.text().lines().next().unwrap()));
+            row.remove("history");
+            of_all.push(row);
+        }
+        of_all
+    };
+    assert_eq!(
+        counts(&format!("pm-cachesim {two} sum.pmt")),
+        counts(&format!("pm-cachesim --references all {two} sum.lackey.zst"))
+    );
+    // The misses of the archive and of the foreign trace itself are the same reads.
+    let first = "--cache 2K,4,64,lru --format csv";
+    folder.run(&format!("pm-cachesim -q {first} --misses a.pmt sum.pmt")).ok();
+    folder.run(&format!("pm-cachesim -q --references all {first} --misses b.pmt sum.lackey.zst")).ok();
+    let records = |file: &str| folder.run(&format!("pm-view --export csv {file}")).ok().stdout;
+    assert!(records("a.pmt") == records("b.pmt"));
+    let row_of = |line: &str| row(folder.run(line).ok().text());
+    let level = row_of(&format!("pm-cachesim {first} sum.pmt"));
+    let second = row_of("pm-cachesim --format csv --cache 16K,8,64,lru a.pmt");
+    assert_eq!(second["reads"], level["fetches"]);
+    assert!(second["order"].contains("2K,4,64,lru"), "{}", second["order"]);
+    // Out: another program gets what misses in both, and we read as much from it.
+    folder.run("pm-cachesim --cache 16K,8,64,lru --format csv --misses c.pmt a.pmt").ok();
+    folder.run("pm-view --export dramsim3 --line 64 c.pmt -o out.txt").ok();
+    let out = row_of("pm-cachesim --format csv --cache none out.txt");
+    assert_eq!(out["reads"], second["fetches"]);
+    let _ = folder.run("pm-view --import trace sum.pmt -o d.pmt").fails(2);
+    let _ = folder.run("pm-view --input raw64 sum.pmt").fails(2);
+}
+
+#[test]
+fn misses_of_a_foreign_trace_go_to_a_pipe() {
+    let folder = Folder::new();
+    folder.write("t.xdin", "r 1000 4\nw 2000 4\nr 1000 4\n");
+    let piped = folder
+        .sh("pm-cachesim -q --misses - --cache 1K,full,64,lru t.xdin | pm-cachesim --format csv --cache none,64")
+        .ok();
+    let row = row(piped.text());
+    assert_eq!((&*row["reads"], &*row["raw_bytes"], &*row["blocks"]), ("2", "128", "128"));
+}
+
+#[test]
+fn parts_of_a_foreign_trace_are_counted() {
+    let folder = Folder::new();
+    folder.write("t", raw64((0..1000).map(|i| i % 100 * 64)));
+    let counts = |options: &str| {
+        let line = format!("pm-cachesim --input raw64 --format csv --cache 64K,full,64,lru {options} t");
+        let csv = folder.run(&line).ok();
+        let row = row(csv.text());
+        ["reads", "fetches", "compulsory"].map(|column| row[column].parse::<u64>().unwrap())
+    };
+    assert_eq!(counts(""), [1000, 100, 100]);
+    assert_eq!(counts("--skip 950"), [50, 50, 50]);
+    assert_eq!(counts("--skip 50 --warm-up 75 --take 50"), [50, 25, 25]);
+    assert_eq!(counts("--warm-up 100"), [900, 0, 0]);
+    assert_eq!(counts("--take 30"), [30, 30, 30]);
+    assert!(folder.run("pm-cachesim --input raw64 --skip 1000 t").fails(2).contains("1000 accesses"));
+    // The warm-up of an archive is that of the trace.
+    folder.run("pm-view --import trace --input raw64 --skip 50 --warm-up 75 --take 50 t -o t.pmt").ok();
+    let csv = folder.run("pm-cachesim --format csv --cache 64K,full,64,lru t.pmt").ok();
+    assert_eq!((&*row(csv.text())["reads"], &*row(csv.text())["fetches"]), ("50", "25"));
+    let _ = folder.run("pm-cachesim --skip 1 t.pmt").fails(2);
 }

@@ -122,11 +122,14 @@ def decode(block, regions):
     if ends[3] > len(block.payload):
         raise DamagedStream("a block does not hold its searches")
     heads, destinations = (_Integers(block.payload[ends[i] : ends[i + 1]]) for i in (0, 1))
-    walks, others = block.payload[ends[2] : ends[3]], _Integers(block.payload[ends[3] :])
+    walks, spelled = block.payload[ends[2] : ends[3]], block.payload[ends[3] :]
+    # Where the region is all addresses the last plane has eight bytes for each access, and no integers of any length.
+    of_addresses = any(region.coding == "addresses" for region in regions)
+    others, address = _Integers(b"" if of_addresses else spelled), 0
     bits, walked = np.unpackbits(np.frombuffer(walks, np.uint8), bitorder="little").tolist(), 0
     parts, per_search, pixels, digest, pixel = [], [], [], 0, 0
     for _ in range(block.records):
-        before = heads.at, walked, others.at
+        before = heads.at, walked, others.at, address
         served = []
         for _ in range(destinations.take()):
             pixel += _unzigzag(destinations.take())
@@ -136,9 +139,17 @@ def decode(block, regions):
         for _ in range(heads.take()):
             head = heads.take()
             number, region = head >> 1, regions[head >> 1] if head >> 1 < len(regions) else None
-            if region is None or (head & 1 and region.coding != "heap walk"):
+            if region is None or (head & 1) != (1 if of_addresses else head & (region.coding == "heap walk")):
                 raise DamagedStream("a search reads a region that is not there")
-            if head & 1:
+            if of_addresses:
+                accesses, kinds, lengths = heads.take(), heads.take(), heads.take()
+                end = address + 8 * accesses
+                if kinds > READ_MODIFY_WRITE or lengths >= 1 << 32 or end > len(spelled):
+                    raise DamagedStream("an access lies outside its region")
+                offsets, address = np.frombuffer(spelled[address:end], "<u8"), end
+                if len(offsets) and int(offsets.max()) + max(lengths, 1) > 1 << 64:
+                    raise DamagedStream("an access lies outside its region")
+            elif head & 1:
                 reads = []
                 try:
                     at = _walk(bits, at, region.nodes, region.reread, reads)
@@ -153,13 +164,15 @@ def decode(block, regions):
         per_search.append(count)
         walked = (at + 7) // 8
         search = struct.pack(f"<Q{len(served)}I", len(served), *served)
-        search += heads.bytes_since(before[0]) + walks[before[1] : walked] + others.bytes_since(before[2])
+        search += heads.bytes_since(before[0]) + walks[before[1] : walked]
+        search += spelled[before[3] : address] if of_addresses else others.bytes_since(before[2])
         digest += xxh3_128(search)
-    if (heads.at, destinations.at, walked, others.at) != (
+    if (heads.at, destinations.at, walked, others.at, address) != (
         len(heads.values),
         len(destinations.values),
         len(walks),
         len(others.values),
+        len(spelled) if of_addresses else 0,
     ):
         raise DamagedStream("a block holds more than its searches")
     whole = lambda of, dtype: np.concatenate([np.zeros(0, dtype), *(np.full(len(part[2]), of(part), dtype) for part in parts)])

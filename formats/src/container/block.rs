@@ -4,6 +4,7 @@ use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK};
 use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
+use zstd::zstd_safe::CParameter;
 
 /// A block as it stands in a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,12 +27,34 @@ impl Block {
         Self::encode_section(Section::Records, meta, payload, level)
     }
 
+    /// The same where what repeats may be far apart, anywhere in the payload.
+    ///
+    /// # Errors
+    /// As [`encode`](Self::encode).
+    pub(crate) fn encode_long(meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
+        // All of the payload in the window, but for the smallest and the largest that zstd has.
+        let window = payload.len().next_power_of_two().ilog2().clamp(10, 27);
+        let mut compressor = zstd::bulk::Compressor::new(level)?;
+        compressor.set_parameter(CParameter::EnableLongDistanceMatching(true))?;
+        compressor.set_parameter(CParameter::WindowLog(window))?;
+        Self::packed(Section::Records, meta, payload, |payload| compressor.compress(payload))
+    }
+
     pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
+        Self::packed(section, meta, payload, |payload| zstd::bulk::compress(payload, level))
+    }
+
+    fn packed(
+        section: Section,
+        meta: BlockMeta,
+        payload: &[u8],
+        pack: impl FnOnce(&[u8]) -> std::io::Result<Vec<u8>>,
+    ) -> Result<Self> {
         if payload.len() > MAX_BLOCK {
             return Err(Error::Invalid(format!("a block of {} bytes; the most is {MAX_BLOCK}", payload.len())));
         }
         let raw_len = u32::try_from(payload.len()).expect("MAX_BLOCK fits in 32 bits");
-        let packed = zstd::bulk::compress(payload, level)?;
+        let packed = pack(payload)?;
         let compressed = packed.len() < payload.len();
         let bytes = if compressed { packed } else { payload.to_vec() };
         Ok(Self { section, meta, compressed, raw_len, bytes })

@@ -55,6 +55,13 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
         let number = u16::try_from(head >> 1).ok()?;
         let region = regions.get(usize::from(number))?;
         let size = region.record_size;
+        if region.is_addresses() {
+            if head & 1 == 0 {
+                return None;
+            }
+            decode_run(planes, region, sink)?;
+            continue;
+        }
         if head & 1 == 1 {
             let Coding::HeapWalk { nodes, reread } = region.coding else { return None };
             let read = |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
@@ -72,12 +79,7 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
                 Access::read(number, u64::try_from(last).ok()?.checked_mul(u64::from(size))?, size)
             } else {
                 last = last.checked_add(unzigzag(take(&mut planes.others)?))?;
-                let kind = match token >> 1 {
-                    0 => AccessKind::Read,
-                    1 => AccessKind::Write,
-                    2 => AccessKind::ReadModifyWrite,
-                    _ => return None,
-                };
+                let kind = kind(token >> 1)?;
                 let len = u32::try_from(take(&mut planes.others)?).ok()?;
                 Access { kind, region: number, len, offset: u64::try_from(last).ok()? }
             };
@@ -90,6 +92,32 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
     bits.align();
     planes.walks = planes.walks.get(bits.bytes_read()..)?;
     Some(())
+}
+
+/// Accesses of one kind and length anywhere among all addresses.
+fn decode_run(planes: &mut Planes<'_>, region: &Region, sink: &mut impl TraceSink) -> Option<()> {
+    let count = usize::try_from(take(&mut planes.heads)?).ok()?;
+    let kind = kind(take(&mut planes.heads)?)?;
+    let len = u32::try_from(take(&mut planes.heads)?).ok()?;
+    let (addresses, rest) = planes.others.split_at_checked(count.checked_mul(8)?)?;
+    planes.others = rest;
+    for address in addresses.chunks_exact(8) {
+        let offset = u64::from_le_bytes(address.try_into().expect("eight bytes"));
+        if !region.holds(offset, len) {
+            return None;
+        }
+        sink.access(Access { kind, region: 0, len, offset });
+    }
+    Some(())
+}
+
+fn kind(number: u64) -> Option<AccessKind> {
+    match number {
+        0 => Some(AccessKind::Read),
+        1 => Some(AccessKind::Write),
+        2 => Some(AccessKind::ReadModifyWrite),
+        _ => None,
+    }
 }
 
 /// The four planes of a block's payload, as far as they are not yet read.

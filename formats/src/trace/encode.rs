@@ -37,6 +37,8 @@ struct Current {
     others_from: usize,
     /// Record index or offset last coded generically.
     last: i64,
+    /// Accesses to addresses, all of this kind and length, that have no segment yet, and how many.
+    run: Option<(AccessKind, u32, u64)>,
     pixels: Vec<u32>,
 }
 
@@ -70,6 +72,7 @@ impl<'a> BlockEncoder<'a> {
         current.walks_from = self.walks.bytes.len();
         current.others_from = self.others.len();
         current.last = 0;
+        current.run = None;
         current.pixels.clear();
         current.pixels.extend_from_slice(destinations);
     }
@@ -79,8 +82,9 @@ impl<'a> BlockEncoder<'a> {
     /// Where the region's coding implies second touches they are not among `indices`, which then must be walks.
     ///
     /// # Panics
-    /// If they are not.
+    /// If they are not; if the region is all addresses, which has no records.
     pub fn records(&mut self, region: u16, indices: &[u32]) {
+        assert!(!self.regions[usize::from(region)].is_addresses(), "addresses are no records");
         let mut rest = indices;
         if let Coding::HeapWalk { nodes, reread } = self.regions[usize::from(region)].coding {
             while let Some(len) = heap_walk::encode(rest, nodes, &mut self.walks) {
@@ -102,6 +106,9 @@ impl<'a> BlockEncoder<'a> {
     /// The search makes an access of any kind.
     #[expect(clippy::cast_possible_wrap, reason = "offsets lie within a region, far below 2^63")]
     pub fn access(&mut self, access: Access) {
+        if self.regions[usize::from(access.region)].is_addresses() {
+            return self.address(access);
+        }
         let size = u64::from(self.regions[usize::from(access.region)].record_size.max(1));
         let whole = access.kind == AccessKind::Read
             && u64::from(access.len) == size
@@ -118,6 +125,27 @@ impl<'a> BlockEncoder<'a> {
         self.current.last = access.offset as i64;
     }
 
+    /// An access of all addresses: eight bytes, as many accesses as are of one kind and length in a segment.
+    fn address(&mut self, access: Access) {
+        match &mut self.current.run {
+            Some((kind, len, count)) if (*kind, *len) == (access.kind, access.len) => *count += 1,
+            _ => {
+                self.end_run();
+                self.current.run = Some((access.kind, access.len, 1));
+            }
+        }
+        self.others.extend_from_slice(&access.offset.to_le_bytes());
+    }
+
+    /// Writes the segment of the accesses that have none.
+    fn end_run(&mut self) {
+        if let Some((kind, len, count)) = self.current.run.take() {
+            // The region is the only one.
+            self.segment(0, true, 0);
+            [count, kind as u64, len.into()].into_iter().for_each(|number| push(&mut self.current.heads, number));
+        }
+    }
+
     fn segment(&mut self, region: u16, walk: bool, count: u64) {
         self.current.segments += 1;
         push(&mut self.current.heads, u64::from(region) << 1 | u64::from(walk));
@@ -128,6 +156,7 @@ impl<'a> BlockEncoder<'a> {
 
     /// The search is over.
     pub fn end(&mut self) {
+        self.end_run();
         self.walks.align();
         let from = self.heads.len();
         push(&mut self.heads, self.current.segments);
@@ -155,6 +184,12 @@ impl<'a> BlockEncoder<'a> {
         }
         planes.iter().for_each(|plane| payload.extend_from_slice(plane));
         let records = u32::try_from(self.tally.records).expect("a block's worth of searches");
-        Ok((Block::encode(BlockMeta { records, ..meta }, &payload, LEVEL)?, self.tally))
+        let meta = BlockMeta { records, ..meta };
+        // Addresses are spelled out, and what repeats of them is long and far apart.
+        let block = match self.regions.iter().any(Region::is_addresses) {
+            true => Block::encode_long(meta, &payload, LEVEL)?,
+            false => Block::encode(meta, &payload, LEVEL)?,
+        };
+        Ok((block, self.tally))
     }
 }

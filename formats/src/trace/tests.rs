@@ -61,6 +61,62 @@ proptest! {
     }
 }
 
+proptest! {
+    #[test]
+    fn any_addresses_come_back(
+        searches in prop::collection::vec(
+            (prop::collection::vec(any::<u32>(), 0..2),
+             prop::collection::vec((0u8..3, prop_oneof![Just(1u32), Just(8), 0u32..5000],
+                                    prop_oneof![any::<u64>(), 0u64..64, Just(u64::MAX)]), 0..40)), 0..6)
+    ) {
+        let regions = [Region::addresses("x")];
+        let access = |(kind, len, offset): (u8, u32, u64)| {
+            let kind = [AccessKind::Read, AccessKind::Write, AccessKind::ReadModifyWrite][usize::from(kind)];
+            Access { kind, region: 0, len: len.min((u64::MAX - offset).min(9000) as u32 + 1), offset }
+        };
+        let searches: Vec<Search> =
+            searches.into_iter().map(|(pixels, of)| (pixels, of.into_iter().map(access).collect())).collect();
+        let (block, tally) = encoded(&regions, &searches);
+        let mut found = Collect::default();
+        prop_assert_eq!(decode_searches(&block, &regions, &mut found), Some(tally));
+        prop_assert_eq!(&found.0, &searches);
+        // Beyond the last address there is nothing.
+        let beyond = Access::read(0, u64::MAX, 2);
+        let (block, _) = encoded(&regions, &[(vec![], vec![beyond])]);
+        prop_assert_eq!(decode_searches(&block, &regions, &mut Collect::default()), None);
+    }
+}
+
+#[test]
+fn addresses_that_repeat_far_apart_are_found_again() {
+    // Half a million addresses of no pattern, twice: the second time costs next to nothing.
+    let regions = [Region::addresses("x")];
+    let mut encoder = BlockEncoder::new(&regions);
+    encoder.begin(&[]);
+    for i in (0..500_000u64).chain(0..500_000) {
+        encoder.access(Access::read(0, i.wrapping_mul(i).wrapping_mul(0x9e37_79b9_7f4a_7c15), 8));
+    }
+    encoder.end();
+    let (block, _) = encoder.finish(BlockMeta::default()).unwrap();
+    assert!(block.stored_len() < 4_100_000, "{}", block.stored_len());
+}
+
+#[test]
+fn all_addresses_are_a_region_of_their_own() {
+    let written = |regions: Vec<Region>| TraceWriter::new(vec![], &Header { regions, ..Header::empty() }).map(|_| ());
+    let addresses = Region::addresses("x");
+    written(vec![addresses.clone()]).unwrap();
+    let table = regions().remove(1);
+    for wrong in [
+        vec![addresses.clone(), table],
+        vec![addresses.clone(), addresses.clone()],
+        vec![Region { size: 1 << 40, ..addresses.clone() }],
+        vec![Region { base: 4096, ..addresses }],
+    ] {
+        assert!(written(wrong).unwrap_err().to_string().contains("all addresses"));
+    }
+}
+
 #[test]
 fn walks_cost_bits_and_other_visits_still_come_back() {
     let regions = regions();

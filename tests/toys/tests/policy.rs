@@ -62,7 +62,7 @@ fn it_sees_every_access() {
         spanning += lines.len() - trace.accesses.len();
         for (lines_held, sets) in [(4, 1), (16, 1), (16, 4)] {
             let ways = if sets == 1 { "full".to_owned() } else { (lines_held / sets).to_string() };
-            let config = cache(&format!("{},{ways},64,lfu", lines_held * 64));
+            let config = cache(&format!("{},{ways},64,rarest", lines_held * 64));
             let expected = Naive::new(sets, lines_held / sets).misses(&lines);
             for chunk in [1, 2, 7, 60, 2048] {
                 let alone = simulate(&trace, &[config], chunk).remove(0);
@@ -81,12 +81,15 @@ fn it_sees_every_access() {
 
 #[test]
 fn its_word_is_read_printed_and_told() {
-    let (full, sets) = (cache("128K,full,128,lfu"), cache("64K,8,64,lfu,hash"));
-    assert_eq!((full.to_string(), sets.to_string()), ("128K,full,128,lfu".into(), "64K,8,64,lfu,hash".into()));
-    assert!("128K,full,128,lfu".parse::<CacheConfig>().is_err(), "it is none of the library's own");
+    let (full, sets) = (cache("128K,full,128,rarest"), cache("64K,8,64,rarest,hash"));
+    assert_eq!((full.to_string(), sets.to_string()), ("128K,full,128,rarest".into(), "64K,8,64,rarest,hash".into()));
+    assert!("128K,full,128,rarest".parse::<CacheConfig>().is_err(), "it is none of the library's own");
     let error = CacheConfig::parse("128K,full,128,mru", &policies()).err().map(|error| error.to_string());
-    assert!(error.as_ref().is_some_and(|error| error.contains("min-bypass, lfu, and none for no cache")), "{error:?}");
-    assert!(policies().table().contains("| `lfu` | The line used least often"), "{}", policies().table());
+    assert!(
+        error.as_ref().is_some_and(|error| error.contains("min-bypass, rarest, and none for no cache")),
+        "{error:?}"
+    );
+    assert!(policies().table().contains("| `rarest` | The line used least often"), "{}", policies().table());
 }
 
 /// A trace of one search, as a stream.
@@ -115,16 +118,16 @@ fn pm_cachesim_knows_it() {
     };
     let (help, _) = run(&["--help"]);
     let help = help.help().expect("help");
-    assert!(help.contains("- lfu:") && help.contains("The line used least often"), "{help}");
+    assert!(help.contains("- rarest:") && help.contains("The line used least often"), "{help}");
     let (refused, _) = run(&["--policies", "mru", "x.pmt"]);
     assert_eq!(refused.code(), 2);
-    assert!(refused.said().contains("min-bypass, lfu, and none for no cache"), "{}", refused.said());
+    assert!(refused.said().contains("min-bypass, rarest, and none for no cache"), "{}", refused.said());
 
     let folder = tempfile::tempdir().expect("a folder");
     let (trace, path) = (Trace::random(7), folder.path().join("t.pmt"));
     std::fs::write(&path, stream(&trace)).expect("a file");
     let path = path.display().to_string();
-    let (done, csv) = run(&["--sizes", "1K", "--lines", "64", "--policies", "lru,lfu", "--format", "csv", &path]);
+    let (done, csv) = run(&["--sizes", "1K", "--lines", "64", "--policies", "lru,rarest", "--format", "csv", &path]);
     assert_eq!(done.code(), 0, "{}", done.said());
     let cell = |row: usize, name: &str| {
         let column = csv.lines().next().and_then(|head| head.split(',').position(|known| known == name));
@@ -133,7 +136,7 @@ fn pm_cachesim_knows_it() {
         let shift = fields.len() - csv.lines().next().map_or(0, |head| head.split(',').count());
         fields[column.expect("such a column") + shift].to_owned()
     };
-    assert_eq!((cell(1, "policy"), cell(2, "policy")), ("lru".into(), "lfu".into()));
-    let counts = simulate(&trace, &[cache("1K,full,64,lru"), cache("1K,full,64,lfu")], 2048);
+    assert_eq!((cell(1, "policy"), cell(2, "policy")), ("lru".into(), "rarest".into()));
+    let counts = simulate(&trace, &[cache("1K,full,64,lru"), cache("1K,full,64,rarest")], 2048);
     assert_eq!([cell(1, "fetches"), cell(2, "fetches")], [&counts[0], &counts[1]].map(|of| of.fetches.to_string()));
 }

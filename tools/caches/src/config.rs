@@ -50,7 +50,7 @@ impl CacheConfig {
         }
         check_line(line_bytes.into())?;
         check_lines(size_bytes, line_bytes)?;
-        check_sets(size_bytes, ways, line_bytes)?;
+        check_sets(size_bytes, ways, line_bytes, SetIndex::Plain)?;
         let lines_of_set = match ways {
             Ways::Full => size_bytes / u64::from(line_bytes),
             Ways::N(ways) => ways.get().into(),
@@ -73,11 +73,14 @@ impl CacheConfig {
     ///
     /// # Errors
     ///
-    /// If it is fully associative.
+    /// If it is fully associative, or its sets are not a power of two.
     pub fn hashed(self) -> Result<Self, ConfigError> {
         match self.ways {
             Ways::Full => Err(ConfigError::HashOfFull),
-            Ways::N(_) => Ok(Self { index: SetIndex::Hash, ..self }),
+            Ways::N(_) => {
+                check_sets(self.size_bytes, self.ways, self.line_bytes, SetIndex::Hash)?;
+                Ok(Self { index: SetIndex::Hash, ..self })
+            }
         }
     }
 
@@ -148,7 +151,7 @@ impl CacheConfig {
         self.index
     }
 
-    /// How many sets it has, a power of two; 1 if it is fully associative, also by having as many ways as lines.
+    /// How many sets it has; 1 if it is fully associative, also by having as many ways as lines.
     #[must_use]
     pub fn sets(&self) -> u64 {
         match self.ways {

@@ -61,7 +61,7 @@ pub use findings::{
 };
 pub use lanes::{LaneSource, Lanes};
 pub use lines::{Attributes, LineChunk, LineSpace};
-pub use misses::{MissStream, MissStreamError, Misses};
+pub use misses::{BankMap, Dram, DramCounts, DramError, MissStream, MissStreamError, Misses, RowPolicy};
 pub use models::{Answer, CacheModel, CacheOnTrace, LineCounts, Modelled, Replacement};
 pub use policies::{ChosenPolicy, Policy, UnknownPolicy, WaysNeeded, policies};
 pub use simulation::{Simulation, SimulationError};

@@ -1,10 +1,14 @@
-//! Misses in the order they happen, and what follows them: changes of DRAM pages, a trace of what is fetched.
+//! Misses in the order they happen, and what follows them: changes of DRAM pages, rows of DRAM banks, a trace of what is
+//! fetched.
 
+mod dram;
 mod page_switches;
 mod stream;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use dram::Banks;
+pub use dram::{BankMap, Dram, DramCounts, DramError, RowPolicy};
 pub(crate) use page_switches::PageSwitches;
 pub use stream::{MissStream, MissStreamError};
 

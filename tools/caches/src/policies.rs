@@ -3,11 +3,13 @@
 mod chosen;
 mod clock;
 mod fifo;
+mod lfu;
 mod lru;
 mod min;
 mod no_cache;
 mod policy;
 mod random;
+mod srrip;
 #[cfg(test)]
 mod tests;
 mod tree_plru;
@@ -31,8 +33,11 @@ pub fn policies() -> Registry<dyn Policy> {
             &lru::Lru,
             &fifo::Fifo,
             &clock::Clock,
+            &clock::ClockClear,
             &random::Random,
             &tree_plru::TreePlru,
+            &srrip::Srrip,
+            &lfu::Lfu,
             &min::Min,
             &min::MinBypass,
             &no_cache::NoCache,

@@ -2,11 +2,16 @@
 
 mod error;
 mod line_group;
+#[cfg(test)]
+mod once_tests;
 mod outcome;
 #[cfg(test)]
 mod places_tests;
 #[cfg(test)]
 mod tests;
+mod twins;
+#[cfg(test)]
+mod twins_tests;
 
 pub use error::SimulationError;
 
@@ -17,7 +22,7 @@ use pm_formats::trace::{Access, Region, TraceSink};
 use crate::config::check_line;
 use crate::findings::{ResultTraffic, SearchStart};
 use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places};
-use crate::misses::PageSwitches;
+use crate::misses::{Banks, PageSwitches};
 use crate::{CacheConfig, CacheCounts, Measures, RecordCounts};
 use error::check_regions;
 use line_group::LineGroup;
@@ -63,6 +68,7 @@ pub struct Simulation {
     results: Option<ResultTraffic>,
     /// Pages of records fetched without a cache.
     record_pages: Option<PageSwitches>,
+    record_banks: Option<Banks>,
     queries: u64,
     searches: u64,
     record_counts: Vec<RecordCounts>,
@@ -111,7 +117,7 @@ impl Simulation {
         check_regions(regions)?;
         let asked = configs.len();
         let mut configs = configs.to_vec();
-        if measures.split {
+        if measures.split || measures.miss_by_miss {
             // The twins of the caches that are no fully associative LRU; one stack serves those of all sizes.
             configs.extend(configs.clone().iter().filter_map(CacheConfig::full_lru_twin));
         }
@@ -136,6 +142,7 @@ impl Simulation {
             configs,
             asked,
             record_pages: measures.page_bytes.map(PageSwitches::new),
+            record_banks: measures.dram.map(Banks::new),
             results: measures.results.map(ResultTraffic::new),
             measures: measures.clone(),
             waiting: AccessBuffer::new(chunk.max(1)),
@@ -177,6 +184,12 @@ impl Simulation {
                     Err(error) => self.fault = Some(error),
                 }
             }
+        }
+        if let Some(banks) = &mut self.record_banks {
+            accesses.reads().for_each(|(region, offset, len)| {
+                let first = self.regions[region].base + offset;
+                banks.fetch(first, first + u64::from(len.max(1) - 1), !self.warm_up);
+            });
         }
         if let Some(pages) = &mut self.record_pages {
             accesses.reads().for_each(|(region, offset, len)| {

@@ -5,14 +5,17 @@
 //! such a sink. What a foreign trace does not have: searches, so nothing is per query, and regions: there is one, which is
 //! all addresses.
 
+mod archive;
 mod beyond;
 mod entries;
 mod export;
 mod exporter;
 mod formats;
 mod import;
+mod in_blocks;
 mod known;
 mod open;
+mod part;
 mod pieces;
 mod reading;
 mod recognise;
@@ -23,10 +26,12 @@ pub mod text;
 mod trace;
 mod unpack;
 
+pub use archive::{archive, header_of};
 pub use export::{Carried, Kinds, PieceWriter, TraceExport, Unwritten};
 pub use exporter::Exporter;
 pub use import::{AssumedSize, EntryParser, EntryShape, Example, ParserOfColumns, Recognition, TraceImport};
 pub use open::{Opened, open};
+pub use part::Part;
 pub use pieces::Piece;
 pub use reading::{Reading, References};
 pub use reference::{EntryKind, Numbered, Parsed, Reference};

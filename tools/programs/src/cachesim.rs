@@ -4,7 +4,6 @@ mod args;
 mod cache_result;
 mod columns;
 mod curve_point;
-mod foreign_args;
 mod found;
 mod miss_file;
 mod policy_words;
@@ -18,8 +17,8 @@ mod windowed;
 pub use args::Args;
 
 use crate::cli::{Program, Typed, usage};
+use crate::foreign_args::ForeignArgs;
 use clap::{CommandFactory as _, FromArgMatches as _};
-use foreign_args::ForeignArgs;
 use pm_caches::Policy;
 use pm_exchange::traces::TraceImport;
 use pm_registry::Registry;
@@ -60,7 +59,7 @@ pub fn run(args: &Args, typed: &Typed, registries: &Registries) -> anyhow::Resul
     }
     let mut results = Results::default();
     if let Some(file) = &args.misses {
-        miss_file::write(args, typed, &questions, file, &mut results)?;
+        miss_file::write(args, typed, registries, &questions, file, &mut results)?;
         if file == Path::new("-") {
             return Ok(None);
         }

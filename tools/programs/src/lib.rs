@@ -5,6 +5,7 @@
 pub mod cachesim;
 pub mod chart;
 pub mod cli;
+mod foreign_args;
 pub mod gather;
 pub mod photons;
 pub mod picture;

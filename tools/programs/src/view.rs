@@ -13,7 +13,9 @@ mod whole;
 pub use args::Args;
 
 use crate::cli::{Program, Typed, create_output, entry, named, open_input, usage};
+use crate::foreign_args::ForeignArgs;
 use anyhow::Context as _;
+use args::Rows;
 use clap::{CommandFactory as _, FromArgMatches as _};
 use pictures::is_picture;
 use pm_exchange::traces::TraceExport;
@@ -23,7 +25,10 @@ use std::path::Path;
 /// The program, where traces may be written in these formats.
 #[must_use]
 pub fn program(exports: &Registry<dyn TraceExport>) -> Program<Args> {
-    let command = Args::command().mut_arg("export", |argument| argument.value_parser(entry(exports)));
+    let command = ForeignArgs::of_formats(Args::command(), &pm_exchange::traces::imports());
+    // Its short help is of streams.
+    let command = command.mut_arg("input", |argument| argument.hide_short_help(true));
+    let command = command.mut_arg("export", |argument| argument.value_parser(entry(exports)));
     Program::new("pm-view", command, Args::from_arg_matches)
 }
 
@@ -32,6 +37,9 @@ pub fn program(exports: &Registry<dyn TraceExport>) -> Program<Args> {
 /// # Errors
 /// Whatever is wrong with the question, an input or the output.
 pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    if args.import != Some(Rows::Trace) && args.foreign.are_given() {
+        return Err(usage("--input and how a trace is read belong to --import trace"));
+    }
     if let Some(what) = args.import {
         return import::import(what, &args, typed);
     }

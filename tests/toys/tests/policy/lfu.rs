@@ -5,7 +5,7 @@ use pm_caches::{CacheModel, CacheOnTrace, Policy, Replacement};
 
 pm_registry::registered! {
     /// The line used least often since it came, of several the one used least recently
-    pub(crate) struct Lfu = "lfu";
+    pub(crate) struct Lfu = "rarest";
 }
 
 impl Policy for Lfu {

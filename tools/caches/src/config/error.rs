@@ -74,8 +74,8 @@ pub enum ConfigError {
     },
     /// The lines do not fill sets of so many ways, or sets of a number that is no power of two.
     #[error(
-        "{size} in {ways} ways of {line}-byte lines is {lines} lines, not a power of two of sets; \
-         {nearest} in {ways} ways would do, or full"
+        "{size} in {ways} ways of {line}-byte lines is {lines} lines, no whole number of sets (or under ,hash no \
+         power of two of them); {nearest} in {ways} ways would do, or full"
     )]
     Sets {
         /// The size asked for.

@@ -2,7 +2,7 @@
 
 use pm_size::Bytes;
 
-use super::{ConfigError, Ways};
+use super::{ConfigError, SetIndex, Ways};
 
 /// Smallest line, in bytes.
 const MIN_LINE: u32 = 4;
@@ -37,12 +37,12 @@ pub(super) fn check_lines(size_bytes: u64, line_bytes: u32) -> Result<(), Config
     Err(ConfigError::NotLines { size: Bytes(size_bytes), line: line_bytes, nearest })
 }
 
-/// The lines fill a power of two of sets.
-pub(super) fn check_sets(size_bytes: u64, ways: Ways, line_bytes: u32) -> Result<(), ConfigError> {
+/// The lines fill a number of sets; a power of two if the set is a hash of the line's number.
+pub(super) fn check_sets(size_bytes: u64, ways: Ways, line_bytes: u32, index: SetIndex) -> Result<(), ConfigError> {
     let Ways::N(ways) = ways else { return Ok(()) };
     let (number, line) = (u64::from(ways.get()), u64::from(line_bytes));
     let lines = size_bytes / line;
-    if lines.is_multiple_of(number) && (lines / number).is_power_of_two() {
+    if lines.is_multiple_of(number) && (index == SetIndex::Plain || (lines / number).is_power_of_two()) {
         return Ok(());
     }
     // Powers of two of sets on either side; a cache of fewer lines than ways has the lower one at 1 set.

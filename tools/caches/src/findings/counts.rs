@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::{RecordCounts, WorkingSets};
-use crate::CacheConfig;
+use crate::{CacheConfig, DramCounts};
 
 /// One cache and what the trace cost with it: exact counts as fields, ratios as methods.
 ///
@@ -43,6 +43,10 @@ pub struct AskedCounts {
     pub full_lru_fetches: Option<u64>,
     /// How often the DRAM page changed from one fetch to the next.
     pub page_switches: Option<u64>,
+    /// Rows of DRAM that fetches found open, or had to open.
+    pub dram: Option<DramCounts>,
+    /// Misses, compulsory ones included, that the fully associative LRU cache of the same size and line has too.
+    pub missed_by_both: Option<u64>,
     /// Distinct lines of searches and batches; the same for all caches of a line size.
     pub working_sets: Option<Rc<WorkingSets>>,
 }
@@ -97,6 +101,26 @@ impl CacheCounts {
     #[must_use]
     pub fn conflict(&self) -> Option<i64> {
         Some(self.fetches as i64 - self.more.full_lru_fetches? as i64)
+    }
+
+    /// Capacity misses as Dinero IV counts them (`-ccc`), miss by miss: lines touched before that the fully associative LRU
+    /// cache of the same size misses too.
+    #[must_use]
+    pub fn capacity_by_miss(&self) -> Option<u64> {
+        Some(self.more.missed_by_both?.saturating_sub(self.compulsory))
+    }
+
+    /// Conflict misses as Dinero IV counts them: those that the fully associative LRU cache of the same size does not have.
+    /// Never below zero; what that cache misses and this one does not is not set off against them.
+    #[must_use]
+    pub fn conflict_by_miss(&self) -> Option<u64> {
+        Some(self.fetches.saturating_sub(self.more.missed_by_both?))
+    }
+
+    /// Rows of DRAM activated for each fetch.
+    #[must_use]
+    pub fn activates_per_fetch(&self) -> Option<f64> {
+        Some(ratio(self.more.dram?.activates, self.fetches))
     }
 
     /// Changes of the DRAM page for each fetch.

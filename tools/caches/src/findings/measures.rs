@@ -1,6 +1,7 @@
 //! What to find out besides the caches' own counts.
 
 use super::ResultMemory;
+use crate::Dram;
 
 /// What to find out in the same reading of the trace, besides the rows of the caches. By default nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,6 +16,10 @@ pub struct Measures {
     pub split: bool,
     /// DRAM page in bytes, a power of two, to count page switches.
     pub page_bytes: Option<u64>,
+    /// A DRAM whose open rows the fetches meet.
+    pub dram: Option<Dram>,
+    /// Count misses that the fully associative LRU twin misses too, to tell capacity from conflict miss by miss; with `split`.
+    pub miss_by_miss: bool,
     /// Count the distinct lines of searches and batches.
     pub working_sets: bool,
     /// Count the traffic of results.
@@ -39,5 +44,7 @@ pm_registry::choices! {
         Both = "both",
         /// The line of its first byte, as simulators of single addresses count
         First = "first",
+        /// Every line it has a byte in, but a record counts once, and its misses as one: as cachegrind counts
+        Once = "once",
     }
 }

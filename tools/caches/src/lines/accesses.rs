@@ -27,6 +27,8 @@ pub(crate) struct Accesses<'a> {
     pub(crate) offsets: &'a [u64],
     /// The same of the last bytes where these do not follow from the first, since pages have [`Places`](super::Places).
     pub(crate) lasts: Option<&'a [u64]>,
+    /// Whether each is a further piece of the one before, if any is.
+    pub(crate) further: Option<&'a [bool]>,
     /// Regions, kinds and lengths.
     pub(crate) shapes: &'a [Shape],
     /// The shape that all have, if there is one.
@@ -69,11 +71,16 @@ impl AccessBuffer {
             let differences = shapes.iter().fold(0, |bits, shape| bits | shape.difference(*first));
             differences == 0
         });
-        Accesses { offsets: &self.offsets[self.start..self.end], lasts: None, shapes, common }
+        Accesses { offsets: &self.offsets[self.start..self.end], lasts: None, further: None, shapes, common }
     }
 }
 
 impl Accesses<'_> {
+    /// Whether the access at an index is a further piece of the one before.
+    pub(crate) fn goes_on(&self, at: usize) -> bool {
+        self.further.is_some_and(|further| further[at])
+    }
+
     /// Whether each access lies within its region.
     pub(crate) fn are_within(&self, regions: &[Region]) -> bool {
         let limit = |shape: Shape| {

@@ -43,6 +43,10 @@ pub struct LineChunk {
     len: usize,
     accesses: u64,
     writes: bool,
+    /// Where records count once: number of the record of each line access, from 1 on over the whole trace.
+    records: Vec<u64>,
+    /// The record begun last.
+    record: u64,
 }
 
 /// Not a slot: there are fewer (`MAX_LINES` of the simulation).
@@ -59,6 +63,12 @@ impl LineChunk {
     pub(crate) fn split(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) -> bool {
         if resume.records == accesses.shapes.len() {
             return false;
+        }
+        if space.counts_records() {
+            // Which line access belongs to which record is known there.
+            self.writes = accesses.shapes.iter().any(|shape| shape.attributes().writes());
+            self.split_long(space, accesses, resume);
+            return true;
         }
         let kept = self.repeats == Repeats::Kept;
         let short = match accesses.common {
@@ -147,7 +157,9 @@ impl LineChunk {
     fn split_long(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) {
         self.slots.clear();
         self.attributes.clear();
+        self.records.clear();
         self.attribute_mask = usize::MAX;
+        let before = self.record;
         while resume.records < accesses.shapes.len() && self.slots.len() < LONG_CHUNK {
             let at = resume.records;
             let (shape, attributes) = (accesses.shapes[at], accesses.shapes[at].attributes());
@@ -168,13 +180,22 @@ impl LineChunk {
             let of_page = space.rest_of_page(first);
             self.slots.extend((from..=to).map(|i| if i < of_page { first + i } else { last - (more - i) }));
             self.attributes.resize(self.slots.len(), attributes);
+            if space.counts_records() {
+                self.record += u64::from(from == 0 && !accesses.goes_on(at));
+                self.records.resize(self.slots.len(), self.record);
+            }
             *resume = match to == more {
                 true => Resume { records: at + 1, lines: 0 },
                 false => Resume { records: at, lines: to + 1 },
             };
         }
         self.len = self.slots.len();
-        self.accesses = self.len as u64;
+        self.accesses = if space.counts_records() { self.record - before } else { self.len as u64 };
+    }
+
+    /// Where records count once, the number of the record that the line access at an index belongs to.
+    pub(crate) fn record(&self, index: usize) -> u64 {
+        self.records[index]
     }
 
     /// Slots of the line accesses.

@@ -32,8 +32,9 @@ pub(crate) struct Places {
     firsts: Vec<u64>,
     lasts: Vec<u64>,
     taken: usize,
-    /// Their shapes, if they had to be cut.
+    /// Their shapes, if they had to be cut, and which are further pieces.
     pieces: Vec<Shape>,
+    further: Vec<bool>,
 }
 
 impl Places {
@@ -48,6 +49,7 @@ impl Places {
             lasts: vec![],
             taken: 0,
             pieces: vec![],
+            further: vec![],
         }
     }
 
@@ -96,6 +98,7 @@ impl Places {
         let (shift, low) = (self.shift, (1 << self.shift) - 1);
         self.firsts.clear();
         self.lasts.clear();
+        self.further.clear();
         for (&offset, &shape) in accesses.offsets.iter().zip(accesses.shapes) {
             let last = offset + u64::from(shape.len().max(1) - 1);
             for page in offset >> shift..=last >> shift {
@@ -104,6 +107,7 @@ impl Places {
                 if from == offset || span != SpanRule::First {
                     let of_piece = if span == SpanRule::First { from } else { to };
                     self.firsts.push(place | (from & low));
+                    self.further.push(from != offset);
                     self.lasts.push(place | (of_piece & low));
                     self.pieces.push(shape.of_len(shape.len().min((to - from + 1) as u32)));
                 }
@@ -117,7 +121,7 @@ impl Places {
         let (offsets, lasts) = (&self.firsts[..self.taken], Some(&self.lasts[..self.taken]));
         match self.pieces.is_empty() {
             true => Accesses { offsets, lasts, ..*taken },
-            false => Accesses { offsets, lasts, shapes: &self.pieces, common: None },
+            false => Accesses { offsets, lasts, further: Some(&self.further), shapes: &self.pieces, common: None },
         }
     }
 

@@ -19,6 +19,8 @@ pub struct LineSpace {
     pages: Option<(u32, Vec<u64>)>,
     /// Bits of a record's length that count: all, or none if only the line of its first byte is touched.
     pub(super) len_mask: u32,
+    /// A record counts once.
+    once: bool,
 }
 
 /// How the lines of a region are numbered.
@@ -61,7 +63,7 @@ impl LineSpace {
             previous = previous.max(Some(last));
             numberings[r].delta = delta;
         }
-        Self { shift, regions: numberings, slots, pages: None, len_mask: u32::MAX }
+        Self { shift, regions: numberings, slots, pages: None, len_mask: u32::MAX, once: false }
     }
 
     /// Slots for lines of `line_bytes` in pages of 2^`page_shift` bytes, which have [`Places`](super::Places) in their region,
@@ -69,7 +71,7 @@ impl LineSpace {
     pub(crate) fn of_places(line_bytes: u32, page_shift: u32) -> Self {
         let shift = line_bytes.ilog2();
         let pages = Some((page_shift - shift, vec![]));
-        Self { shift, regions: vec![Numbering::default()], slots: 0, pages, len_mask: u32::MAX }
+        Self { shift, regions: vec![Numbering::default()], slots: 0, pages, len_mask: u32::MAX, once: false }
     }
 
     /// Where pages have places: there are these, by place, of which it knows the first ones.
@@ -94,7 +96,12 @@ impl LineSpace {
 
     /// The same with another rule for records that span lines.
     pub(crate) fn with_span(self, span: SpanRule) -> Self {
-        Self { len_mask: if span == SpanRule::Both { u32::MAX } else { 0 }, ..self }
+        Self { len_mask: if span == SpanRule::First { 0 } else { u32::MAX }, once: span == SpanRule::Once, ..self }
+    }
+
+    /// Whether a record counts once, however many lines it has.
+    pub(crate) fn counts_records(&self) -> bool {
+        self.once
     }
 
     /// Slots of the first and the last line that a record touches.

@@ -46,7 +46,7 @@ impl<W: Write> MissStream<W> {
         let mut simulation = Simulation::measuring(&header.regions, &[config], measures)?;
         simulation.keep_fetched();
         let line_bytes = u64::from(config.line_bytes());
-        for region in &mut header.regions {
+        for region in header.regions.iter_mut().filter(|region| !region.is_addresses()) {
             region.coding = Coding::Records;
             region.record_size = config.line_bytes();
             if line_bytes <= REGION_ALIGNMENT {
@@ -66,11 +66,21 @@ impl<W: Write> MissStream<W> {
 
     /// The read that fetches a line, cut to its region.
     fn read(&self, (region, line): (u16, u64)) -> Access {
-        let Region { base, size, .. } = self.regions[usize::from(region)];
+        let region_of = &self.regions[usize::from(region)];
+        let base = region_of.base;
+        let end = if region_of.is_addresses() { u64::MAX } else { base + (region_of.size - 1) };
         let first = (line * self.line_bytes).max(base);
-        let last = (line * self.line_bytes + (self.line_bytes - 1)).min(base + (size - 1));
+        let last = (line * self.line_bytes + (self.line_bytes - 1)).min(end);
         // A line of 2 GiB still fits.
         Access::read(region, first - base, (last - first + 1) as u32)
+    }
+
+    /// Whether all went well so far: [`Simulation::check`].
+    ///
+    /// # Errors
+    /// If not.
+    pub fn check(&self) -> Result<(), SimulationError> {
+        self.simulation.check()
     }
 
     /// Writes the block that was replayed last.

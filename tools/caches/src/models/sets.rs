@@ -5,35 +5,38 @@ use crate::SetIndex;
 /// How many sets there are, and which of them a line belongs to.
 #[derive(Clone, Copy)]
 pub(crate) struct Sets {
-    /// log2 of their number.
-    bits: u32,
+    number: u64,
     index: SetIndex,
 }
 
 impl Sets {
-    /// `sets` is a power of two.
+    /// `sets` is not none, and a power of two if it is chosen by a hash.
     pub(crate) fn new(sets: u64, index: SetIndex) -> Self {
-        assert!(sets.is_power_of_two());
-        Self { bits: sets.ilog2(), index }
+        assert!(sets > 0 && (index == SetIndex::Plain || sets.is_power_of_two()));
+        Self { number: sets, index }
     }
 
     /// How many there are.
     pub(crate) fn number(self) -> usize {
-        1 << self.bits
+        self.number as usize
     }
 
     /// The set that a line number belongs to.
     #[inline]
     pub(crate) fn of(self, line: u64) -> usize {
+        if !self.number.is_power_of_two() {
+            return (line % self.number) as usize;
+        }
         let mut folded = line;
-        if self.index == SetIndex::Hash && self.bits > 0 {
-            let mut rest = line >> self.bits;
+        if self.index == SetIndex::Hash && self.number > 1 {
+            let bits = self.number.ilog2();
+            let mut rest = line >> bits;
             while rest > 0 {
                 folded ^= rest;
-                rest >>= self.bits;
+                rest >>= bits;
             }
         }
-        folded as usize & (self.number() - 1)
+        (folded & (self.number - 1)) as usize
     }
 }
 
@@ -49,6 +52,12 @@ mod tests {
         // Where it differs from the plain index, and where there is nothing to choose.
         assert_eq!((Sets::new(8, SetIndex::Plain).of(8), sets.of(8)), (0, 1));
         assert_eq!((Sets::new(1, SetIndex::Plain).of(u64::MAX), Sets::new(1, SetIndex::Hash).of(u64::MAX)), (0, 0));
+    }
+
+    #[test]
+    fn of_sets_that_are_no_power_of_two_the_remainder_tells() {
+        let sets = Sets::new(12, SetIndex::Plain);
+        assert_eq!([0, 11, 12, 25, u64::MAX].map(|line| sets.of(line)), [0, 11, 0, 1, (u64::MAX % 12) as usize]);
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use pm_formats::trace::Region;
 
+use super::twins::Twins;
 use crate::curves::{CurveCollector, Shards};
 use crate::findings::{SearchStart, WorkingSetCounter};
 use crate::lines::{Accesses, LineChunk, LineSpace, PAGE_SHIFT, Repeats, Resume};
-use crate::misses::{Misses, PageSwitches};
+use crate::misses::{Banks, Misses, PageSwitches};
 use crate::models::{CacheModel, CacheOnTrace};
 use crate::{CacheConfig, Measures, Policy, SimulationError};
 
@@ -19,6 +20,8 @@ pub(super) struct LineGroup {
     pub(super) accesses: u64,
     pub(super) models: Vec<Running>,
     misses: Misses,
+    /// Which misses they share with their twins, if somebody wants to know.
+    pub(super) twins: Option<Twins>,
     pub(super) curve: Option<CurveCollector>,
     pub(super) shards: Option<Shards>,
     pub(super) working_sets: Option<WorkingSetCounter>,
@@ -39,6 +42,11 @@ pub(super) struct CacheOfModel {
     /// Index into the model's counts.
     pub(super) counts: usize,
     pub(super) pages: Option<PageSwitches>,
+    pub(super) banks: Option<Banks>,
+    /// Where records count once: of each region, misses of records that had missed already.
+    pub(super) spared: Vec<u64>,
+    /// The record that missed last.
+    missed: u64,
 }
 
 impl LineGroup {
@@ -61,11 +69,15 @@ impl LineGroup {
         let models = models(&space, members, configs, regions.len(), measures)?;
         let needed = models.iter().any(|running| running.model.repeats_matter());
         let curve = measures.curves.contains(&line_bytes);
+        let wanted =
+            measures.page_bytes.is_some() || measures.miss_by_miss || measures.dram.is_some() || space.counts_records();
+        let twins = measures.miss_by_miss.then(|| Twins::new(&models, configs));
         Ok(Self {
             chunk: LineChunk::new(if needed { Repeats::Kept } else { Repeats::LeftOut }),
             accesses: 0,
+            twins,
             models,
-            misses: Misses::new(measures.page_bytes.is_some()),
+            misses: Misses::new(wanted),
             curve: (curve && measures.exact_curves()).then(|| CurveCollector::new(slots)),
             shards: measures.sampled.filter(|_| curve).map(|rate| Shards::new(&space, rate)),
             working_sets: measures.working_sets.then(|| WorkingSetCounter::new(slots)),
@@ -93,10 +105,18 @@ impl LineGroup {
             if counted {
                 self.accesses += self.chunk.accesses();
             }
-            for Running { model, caches } in &mut self.models {
+            for (at, Running { model, caches }) in self.models.iter_mut().enumerate() {
                 self.misses.clear();
                 model.run(&self.space, &self.chunk, counted, &mut self.misses);
+                if let Some(twins) = &mut self.twins {
+                    twins.note(at, &self.misses);
+                }
                 follow(&self.space, &self.chunk, &self.misses, caches, self.fetched.as_mut(), counted);
+            }
+            if let Some(twins) = &mut self.twins
+                && counted
+            {
+                twins.compare();
             }
             if let Some(curve) = &mut self.curve {
                 curve.run(self.space.slots(), &self.chunk, counted);
@@ -133,7 +153,9 @@ fn models(
             let of_model = modelled.answers.into_iter().map(|answer| {
                 unanswered.retain(|&cache| cache != answer.cache);
                 let pages = measures.page_bytes.map(PageSwitches::new);
-                CacheOfModel { config: members[answer.cache], counts: answer.counts, pages }
+                let (config, counts) = (members[answer.cache], answer.counts);
+                let banks = measures.dram.map(Banks::new);
+                CacheOfModel { config, counts, pages, banks, spared: vec![0; regions], missed: 0 }
             });
             models.push(Running { model: modelled.model, caches: of_model.collect() });
         }
@@ -156,8 +178,16 @@ fn follow(
         let region = chunk.attributes(miss.index as usize).region();
         let line = space.line(region, chunk.slots()[miss.index as usize]);
         for cache in caches.iter_mut().filter(|cache| cache.counts < miss.caches as usize) {
+            if space.counts_records() {
+                let record = chunk.record(miss.index as usize);
+                cache.spared[region] += u64::from(counted && cache.missed == record);
+                cache.missed = record;
+            }
             if let Some(pages) = &mut cache.pages {
                 pages.fetch(line * line_bytes, line * line_bytes + (line_bytes - 1), counted);
+            }
+            if let Some(banks) = &mut cache.banks {
+                banks.fetch(line * line_bytes, line * line_bytes + (line_bytes - 1), counted);
             }
         }
         let by_first = caches.iter().any(|cache| cache.config == 0 && cache.counts < miss.caches as usize);

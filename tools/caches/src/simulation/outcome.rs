@@ -29,13 +29,18 @@ impl Simulation {
             curves.extend(group.curve.map(|curve| (line_bytes, curve.finish(trace))));
             sampled.extend(group.shards.map(|shards| (line_bytes, shards.finish(trace))));
             let sets = group.working_sets.map(|sets| Rc::new(sets.finish()));
+            let twins = group.twins;
             for running in group.models {
                 let lines = running.model.finish();
                 for cache in running.caches {
                     let config = self.configs[cache.config];
-                    let mut counts = self.counts(config, &trace, &lines[cache.counts]);
+                    let mut counts = self.counts(config, &trace, &lines[cache.counts], &cache.spared);
                     let pages = if config.keeps_lines() { &cache.pages } else { &self.record_pages };
                     counts.more.page_switches = pages.as_ref().map(|pages| pages.switches);
+                    let banks = if config.keeps_lines() { &cache.banks } else { &self.record_banks };
+                    counts.more.dram = banks.as_ref().map(|banks| banks.counts);
+                    let twins = twins.as_ref().filter(|_| config.keeps_lines());
+                    counts.more.missed_by_both = twins.map(|of| of.both(cache.config).unwrap_or(counts.fetches));
                     counts.more.working_sets = sets.clone();
                     caches[cache.config] = Some(counts);
                 }
@@ -53,7 +58,7 @@ impl Simulation {
     /// The counts of the caches asked for, each with the fetches of its twin.
     fn without_twins(&self, mut caches: Vec<CacheCounts>) -> Vec<CacheCounts> {
         let twins = caches.split_off(self.asked);
-        if self.measures.split {
+        if self.measures.split || self.measures.miss_by_miss {
             let mut twins = twins.into_iter();
             for counts in caches.iter_mut().filter(|counts| counts.config.keeps_lines()) {
                 let twin = if counts.config.full_lru_twin().is_some() { twins.next() } else { None };
@@ -73,15 +78,16 @@ impl Simulation {
         bytes.div_ceil(line.into()) as u64
     }
 
-    fn counts(&self, config: CacheConfig, trace: &TraceCounts, lines: &LineCounts) -> CacheCounts {
+    fn counts(&self, config: CacheConfig, trace: &TraceCounts, lines: &LineCounts, spared: &[u64]) -> CacheCounts {
         let line = u64::from(config.line_bytes());
         let (cached, records) = (config.keeps_lines(), trace.records);
-        let region_fetches = if cached {
-            lines.fetches.clone()
+        let region_fetches: Vec<u64> = if cached {
+            lines.fetches.iter().zip(spared).map(|(fetches, spared)| fetches - spared).collect()
         } else {
             self.record_counts.iter().map(|counts| counts.reads + counts.read_modify_writes).collect()
         };
         let fetches = region_fetches.iter().sum();
+        let lines_fetched: u64 = lines.fetches.iter().sum();
         CacheCounts {
             config,
             queries: self.queries,
@@ -89,7 +95,7 @@ impl Simulation {
             records,
             accesses: trace.accesses,
             fetches,
-            bytes_fetched: if cached { fetches * line } else { records.bytes_read },
+            bytes_fetched: if cached { lines_fetched * line } else { records.bytes_read },
             bytes_written_back: if cached { lines.write_backs * line } else { records.bytes_written },
             compulsory: lines.compulsory,
             blocks: trace.blocks,

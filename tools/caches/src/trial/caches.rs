@@ -32,11 +32,13 @@ pub(super) fn random_cache(draw: &mut Draw, policy: ChosenPolicy) -> CacheConfig
         policy,
         if full { draw.pick(&[1, 2, 3, 7, 20, 64, 1 << 30]) } else { draw.pick(&[1, 2, 3, 8, 16, 37]) },
     );
-    let lines = if full { ways } else { ways << draw.below(5) };
+    // Powers of two of sets, and other numbers.
+    let sets = draw.pick(&[1, 2, 4, 8, 16, 3, 7, 12]);
+    let lines = if full { ways } else { ways * sets };
     let ways = if full { Ways::Full } else { some_ways(ways) };
     let config =
         CacheConfig::new(lines * u64::from(line), ways, line, policy).unwrap_or_else(|error| panic!("{error}"));
-    if !full && draw.below(2) == 0 { config.hashed().expect("not full") } else { config }
+    if !full && sets.is_power_of_two() && draw.below(2) == 0 { config.hashed().expect("not full") } else { config }
 }
 
 /// So many ways.

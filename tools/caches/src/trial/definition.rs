@@ -51,6 +51,12 @@ impl FullSet<'_> {
         self.held
     }
 
+    /// When this is: the number of the access, which is greater than those of all uses.
+    #[must_use]
+    pub fn now(&self) -> usize {
+        self.now
+    }
+
     /// The line accessed.
     #[must_use]
     pub fn line(&self) -> u64 {

@@ -1,6 +1,6 @@
 //! How an input is to be read.
 
-use super::TraceImport;
+use super::{Part, TraceImport};
 
 /// How an input is to be read.
 #[derive(Clone)]
@@ -15,13 +15,22 @@ pub struct Reading {
     pub columns: Option<Vec<String>>,
     /// Which entries count.
     pub references: References,
+    /// Which of the accesses are replayed.
+    pub part: Part,
 }
 
 impl Reading {
     /// As the content tells, and data alone.
     #[must_use]
     pub const fn plain() -> Self {
-        Self { format: None, access_size: None, address_unit: 1, columns: None, references: References::Data }
+        Self {
+            format: None,
+            access_size: None,
+            address_unit: 1,
+            columns: None,
+            references: References::Data,
+            part: Part { skip: 0, warm_up: 0, take: None },
+        }
     }
 
     /// The same for inputs of this format.

@@ -2,8 +2,12 @@
 
 use super::beyond::Beyond;
 use super::entries::Entries;
+use super::in_blocks::InBlocks;
+use super::part::Fate;
 use super::unpack::Bytes;
 use super::{AssumedSize, EntryKind, Numbered, Reading, References, TraceImport};
+use crate::fault::bad_question;
+use pm_formats::BlockMeta;
 use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
 
 /// A trace in another simulator's format. It is read once, while it is replayed, and nothing of it is kept.
@@ -13,6 +17,8 @@ pub struct Trace {
     reading: Reading,
     regions: [Region; 1],
     left_out: u64,
+    /// Accesses met, where not all are replayed.
+    seen: u64,
     /// Where addresses are of more than 64 bits.
     beyond: Beyond,
 }
@@ -21,7 +27,7 @@ impl Trace {
     /// The trace that has these entries.
     pub(super) fn new(format: &'static dyn TraceImport, entries: Entries<Bytes>, reading: &Reading) -> Self {
         let regions = [Region::addresses(format.word())];
-        Self { format, entries, reading: reading.clone(), regions, left_out: 0, beyond: Beyond::default() }
+        Self { format, entries, reading: reading.clone(), regions, left_out: 0, seen: 0, beyond: Beyond::default() }
     }
 
     /// Its format.
@@ -42,15 +48,45 @@ impl Trace {
         self.left_out
     }
 
-    /// Replays all accesses as one block without searches.
+    /// Replays its part as one block without searches, or as two if it has warm-up.
     ///
     /// # Errors
-    /// If an entry is not of the format, with its line or record; what the input reports. What was replayed before that is
-    /// then worthless.
+    /// If an entry is not of the format, with its line or record; what the input reports; if the trace ends before anything
+    /// counts that should. What was replayed before that is then worthless.
     pub fn replay(&mut self, sink: &mut impl TraceSink) -> anyhow::Result<()> {
-        sink.block(0, false);
+        self.replay_checked(sink, |_| Ok(()))
+    }
+
+    /// The same in blocks of searches that serve no query; each is ended by `end_block`.
+    ///
+    /// # Errors
+    /// As [`replay`](Self::replay), and what `end_block` says.
+    pub fn replay_blocks<S: TraceSink>(
+        &mut self,
+        sink: &mut S,
+        end_block: impl FnMut(&mut S, BlockMeta) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        let mut in_blocks = InBlocks::new(sink, end_block);
+        self.replay_checked(&mut in_blocks, InBlocks::check)?;
+        in_blocks.finish()
+    }
+
+    fn replay_checked<S: TraceSink>(
+        &mut self,
+        sink: &mut S,
+        mut check: impl FnMut(&mut S) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        let part = self.reading.part;
+        sink.block(0, part.warm_up > 0);
         let mut batch = vec![];
-        while self.replay_batch(&mut batch, sink)? {}
+        while self.replay_batch(&mut batch, sink)? {
+            check(sink)?;
+        }
+        let uncounted = part.skip.saturating_add(part.warm_up);
+        if uncounted > 0 && self.seen <= uncounted {
+            let text = format!("the trace has {} accesses: none is left to count after {uncounted}", self.seen);
+            return Err(bad_question(text));
+        }
         Ok(())
     }
 
@@ -59,6 +95,7 @@ impl Trace {
         if !self.entries.next_batch(batch)? {
             return Ok(false);
         }
+        let whole = self.reading.part.is_whole();
         let Reading { access_size, address_unit: unit, references, .. } = self.reading;
         let assumed = self.format.assumed_size().unwrap_or(AssumedSize::BYTE);
         // The low bits of an address that say nothing.
@@ -72,6 +109,16 @@ impl Trace {
                 (EntryKind::Instruction, _) => AccessKind::Read,
                 (EntryKind::Data(kind), _) => kind,
             };
+            if !whole {
+                let fate = self.reading.part.fate(self.seen);
+                self.seen += 1;
+                match fate {
+                    Fate::LeftOut => continue,
+                    Fate::Replayed => {}
+                    Fate::First => sink.block(0, false),
+                    Fate::Over => return Ok(false),
+                }
+            }
             let (len, idle) = match access_size.or(reference.len) {
                 Some(len) => (len, 0),
                 None => (assumed.bytes, idle),

@@ -1,10 +1,10 @@
 //! What pm-cachesim may be asked.
 
-use super::foreign_args::ForeignArgs;
 use super::sizes::Sizes;
 use crate::cli::{Voice, choice};
+use crate::foreign_args::ForeignArgs;
 use clap::Parser;
-use pm_caches::{CacheConfig, ChosenPolicy, LaneSource, SpanRule, Ways};
+use pm_caches::{CacheConfig, ChosenPolicy, Dram, LaneSource, SpanRule, Ways};
 use pm_report::Format;
 use pm_size::Bytes;
 use std::path::PathBuf;
@@ -26,6 +26,8 @@ pub struct Args {
     pub(super) traces: Vec<PathBuf>,
     /// A cache: size, ways (`full` or a number), line size, policy, and `,hash` to hash the set index; or `none`; may be
     /// repeated
+    ///
+    /// Without `,hash` the set of a line is the remainder of its number by the number of sets, which may be any.
     #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways", "policies"])]
     pub(super) cache: Vec<CacheConfig>,
     /// Cache sizes, combined with each of --lines, --ways and --policies; 4K..4M is each power of two between [default: 128K]
@@ -48,12 +50,22 @@ pub struct Args {
     #[arg(long, value_name = "R", conflicts_with_all = ["cache", "ways"], value_parser = rate, hide_short_help = true)]
     pub(super) shards: Option<f64>,
     /// Write what the one --cache fetches as a trace, for a further cache; `-` is standard output, then no table
-    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards", "lanes", "input"])]
+    #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards", "lanes"])]
     pub(super) misses: Option<PathBuf>,
     /// Which lines a record touches that does not lie in one
     #[arg(long, default_value = "both", hide_short_help = true, value_parser = choice::<SpanRule>())]
     pub(super) span: SpanRule,
-    /// DRAM page (row) to count page switches by, a power of two
+    /// A DRAM that fetches go to in their order: banks, bytes of a row, `open` or `closed` after a fetch; columns for rows
+    /// found open, conflicts and activations
+    ///
+    /// The bank of a row is its number modulo the banks; with `,xor` behind it, that xor-ed with the bits above.
+    #[arg(long, value_name = "BANKS,ROW,POLICY", hide_short_help = true, conflicts_with_all = ["curve", "shards"])]
+    pub(super) dram: Option<Dram>,
+    /// Columns for capacity and conflict misses as Dinero's -ccc counts them: a miss is one of capacity if the fully
+    /// associative LRU cache of that size misses too
+    #[arg(long, hide_short_help = true, conflicts_with_all = ["curve", "shards"])]
+    pub(super) dinero: bool,
+    /// DRAM page (row) to count page switches by, a power of two; as if one were open in all, --dram knows banks
     #[arg(long, value_name = "SIZE", default_value = "8K", hide_short_help = true)]
     pub(super) page: Bytes,
     /// Write-back cache of 32-byte sectors that results go through; where a batch is a tile whose pixels fit in it, they
@@ -72,6 +84,9 @@ pub struct Args {
     pub(super) lanes_from: LaneSource,
     #[command(flatten)]
     pub(super) foreign: ForeignArgs,
+    /// Columns of a CSV file: address, size, kind, and _ for one to skip, or names of its own, such as address=lbn,size=len
+    #[arg(long, value_name = "LIST", value_delimiter = ',', hide_short_help = true)]
+    pub(super) columns: Option<Vec<String>>,
     /// How to print the result
     #[arg(long, default_value = "table", value_parser = choice::<Format>())]
     pub(super) format: Format,

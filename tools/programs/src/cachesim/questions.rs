@@ -2,7 +2,7 @@
 
 use super::{Args, traffic};
 use crate::cli::usage;
-use pm_caches::{CacheConfig, Measures, ResultMemory};
+use pm_caches::{CacheConfig, Measures, ResultMemory, SpanRule};
 use pm_formats::Header;
 use pm_report::Format;
 use pm_size::Bytes;
@@ -27,6 +27,13 @@ impl Questions {
         let tile_pixels = traffic::tile_pixels(header);
         let results = self.measures.results.map(|memory| ResultMemory { tile_pixels, ..memory });
         Measures { results, ..self.measures.clone() }
+    }
+}
+
+impl Questions {
+    /// The measures of a trace of all addresses: it has no queries whose results would go anywhere.
+    pub(super) fn measures_of_addresses(&self) -> Measures {
+        Measures { results: None, ..self.measures.clone() }
     }
 }
 
@@ -63,7 +70,16 @@ fn measures(args: &Args) -> anyhow::Result<Measures> {
     if !args.page.0.is_power_of_two() {
         return Err(usage(format!("--page {}: a power of two is expected, such as 8K", args.page)));
     }
-    let mut measures = Measures { span: args.span, ..Measures::default() };
+    if args.dinero && args.span == SpanRule::Once {
+        return Err(usage("--dinero tells misses of lines apart: leave out --span once"));
+    }
+    if args.span == SpanRule::Once && args.is_curve() {
+        return Err(usage(
+            "--span once counts records of single caches; a curve counts lines: leave out --curve and --shards",
+        ));
+    }
+    let (dram, miss_by_miss) = (args.dram, args.dinero);
+    let mut measures = Measures { span: args.span, dram, miss_by_miss, ..Measures::default() };
     if args.is_curve() {
         // Whatever the size, the line must do.
         let lines = args.lines.iter().map(|line| CacheConfig::line(line.0).map_err(asked_wrongly));

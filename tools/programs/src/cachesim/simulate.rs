@@ -6,8 +6,8 @@ use super::{Args, windowed};
 use crate::cli::{Progress, named, open_bytes, usage};
 use anyhow::Context as _;
 use pm_caches::{Lanes, Measures, Simulation, WindowError, Windows};
-use pm_exchange::traces::{self, Opened, TraceImport};
-use pm_formats::trace::{Access, TraceReader, TraceSink};
+use pm_exchange::traces::{self, Opened, Trace, TraceImport};
+use pm_formats::trace::{Access, Region, TraceReader, TraceSink};
 use pm_registry::Registry;
 use std::io::Read;
 use std::path::Path;
@@ -21,28 +21,44 @@ pub(super) fn simulate(
     results: &mut Results,
 ) -> anyhow::Result<()> {
     let name = named(path);
-    let reading = args.foreign.reading();
-    let opened = open_bytes(path).and_then(|input| traces::open(input, &reading, imports).context(name.clone()))?;
-    match opened {
+    match open(args, path, imports)? {
         Opened::Ours(blocks) => {
             let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
             simulate_ours(args, trace, questions, results).context(name)
         }
         Opened::Foreign(mut trace) => {
             if args.lanes.iter().any(|&lanes| lanes > 1) {
-                return Err(usage(format!("{name}: a foreign trace has no searches for --lanes to let fly together")));
+                return Err(usage(format!("{name}: {NO_SEARCHES}")));
             }
-            // Nor has it queries whose results would go anywhere.
-            let measures = Measures { results: None, ..questions.measures.clone() };
+            let measures = questions.measures_of_addresses();
             let simulation = Simulation::measuring(trace.regions(), &questions.caches, &measures);
             let mut simulation = simulation.context(name.clone())?;
             trace.replay(&mut simulation).and_then(|()| Ok(simulation.check()?)).context(name.clone())?;
-            if let Some(remark) = args.foreign.left_out(trace.left_out()) {
-                args.voice.remark(format!("{name}: {remark}"));
-            }
+            remark_left_out(args, &name, &trace);
             let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
             results.add(args, &source, 1, simulation.findings())
         }
+    }
+}
+
+/// What is said where searches are to fly together and there are none.
+const NO_SEARCHES: &str = "a foreign trace has no searches for --lanes to let fly together";
+
+/// Opens a trace of ours or of another program.
+pub(super) fn open(args: &Args, path: &Path, imports: &Registry<dyn TraceImport>) -> anyhow::Result<Opened> {
+    let reading = args.foreign.reading(args.columns.as_deref());
+    let input = open_bytes(path)?;
+    let opened = traces::open(input, &reading, imports).with_context(|| named(path))?;
+    if matches!(opened, Opened::Ours(_)) {
+        args.foreign.refuse_of_ours().with_context(|| named(path))?;
+    }
+    Ok(opened)
+}
+
+/// Says what was left out of a foreign trace that was replayed.
+pub(super) fn remark_left_out(args: &Args, name: &str, trace: &Trace) {
+    if let Some(remark) = args.foreign.left_out(trace.left_out()) {
+        args.voice.remark(format!("{name}: {remark}"));
     }
 }
 
@@ -55,6 +71,11 @@ fn simulate_ours<R: Read>(
 ) -> anyhow::Result<()> {
     let (configs, measures) = (&questions.caches, questions.measures_of(trace.header()));
     let regions = trace.header().regions.clone();
+    let of_addresses = regions.iter().any(Region::is_addresses);
+    if of_addresses && args.lanes.iter().any(|&lanes| lanes > 1) {
+        return Err(usage(NO_SEARCHES));
+    }
+    let measures = if of_addresses { questions.measures_of_addresses() } else { measures };
     if let Some(sample) = windowed::sample(trace.header())? {
         windowed::refuse(args)?;
         let mut windows = Windows::new(&regions, configs, &measures).map_err(|error| match error {
@@ -66,9 +87,10 @@ fn simulate_ours<R: Read>(
         results.add_windows(&Source::ours(trace.header(), trace.end()?), rows);
         return Ok(());
     }
-    if args.lanes.is_empty() {
+    if args.lanes.is_empty() || of_addresses {
         let mut simulation = Simulation::measuring(&regions, configs, &measures)?;
         replay(args, &mut trace, &mut simulation)?;
+        simulation.check()?;
         return results.add(args, &Source::ours(trace.header(), trace.end()?), 1, simulation.findings());
     }
     let lanes = |&lanes: &u16| -> anyhow::Result<_> {

@@ -2,6 +2,7 @@
 
 use super::Args;
 use crate::cli::usage;
+use pm_caches::SpanRule;
 use pm_exchange::bad_input;
 use pm_formats::Header;
 use pm_formats::vocabulary::meaning;
@@ -45,6 +46,9 @@ pub(super) fn sample(header: &Header) -> anyhow::Result<Option<Sample>> {
 pub(super) fn refuse(args: &Args) -> anyhow::Result<()> {
     let what = match () {
         () if args.misses.is_some() => "--misses: what a cache fetches in windows is not the stream of its misses",
+        () if args.span == SpanRule::Once => "--span once: what a window does not know is told in lines",
+        () if args.dram.is_some() => "--dram: which rows were open before a window is not known",
+        () if args.dinero => "--dinero: an unbounded past is not known in a window",
         () if args.curve => "--curve: the state of an unbounded cache is never exact in a window",
         () if args.shards.is_some() => "--shards: the state of an unbounded cache is never exact in a window",
         () if !args.lanes.is_empty() => "--lanes: searches of other windows would be in flight with those of this one",

@@ -1,6 +1,7 @@
 //! What pm-view may be asked.
 
 use crate::cli::{OutputArgs, Voice, choice, entry};
+use crate::foreign_args::ForeignArgs;
 use crate::setting::size;
 use clap::Parser;
 use pm_exchange::traces::{TraceExport, exports};
@@ -34,7 +35,8 @@ pub struct Args {
     /// Print records as tab-separated text, the first N or all
     #[arg(long, value_name = "N", group = "what", num_args = 0..=1, require_equals = true, default_missing_value = "18446744073709551615")]
     pub(super) records: Option<u64>,
-    /// Make a stream of the rows of a file: CSV (commas, semicolons, tabs or blanks) or raw numbers
+    /// Make a stream of the rows of a file, CSV (commas, semicolons, tabs or blanks) or raw numbers, or of another simulator's
+    /// trace
     #[arg(long, value_name = "KIND", group = "what")]
     pub(super) import: Option<Rows>,
     /// Write a trace for another simulator
@@ -43,6 +45,8 @@ pub struct Args {
     /// Cut exported accesses where lines of so many bytes end; formats without sizes then get lines
     #[arg(long, value_name = "BYTES", requires = "export", hide_short_help = true)]
     pub(super) line: Option<Bytes>,
+    #[command(flatten)]
+    pub(super) foreign: ForeignArgs,
     /// Names of the columns where the file has none, such as x,y,z,_,power_r; `_` skips one
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "import")]
     pub(super) columns: Option<Vec<String>>,
@@ -84,6 +88,8 @@ pub(super) enum Rows {
     Photons,
     /// Gather queries
     Queries,
+    /// Memory accesses, in any format that pm-cachesim reads
+    Trace,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]

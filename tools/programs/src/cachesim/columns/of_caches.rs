@@ -22,7 +22,14 @@ pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Ta
         .text("ways", false, |of| of.config().ways().to_string())
         .count("line_bytes", false, |of| of.config().line_bytes().into())
         .text("policy", false, |of| of.config().policy().to_string());
-    let columns = columns.counts(windowed).ratios(windowed).working_sets().other_traffic().windows(windowed);
+    let columns = columns
+        .counts(windowed)
+        .ratios(windowed)
+        .dinero(results)
+        .dram(results)
+        .working_sets()
+        .other_traffic()
+        .windows(windowed);
     columns.fetches_of_regions(results).text("history", false, |of| of.history.to_string()).table(format, results)
 }
 
@@ -65,6 +72,34 @@ impl Columns<CacheResult> {
             })
             .number("page_switches", false, |of| of.found.page_switches())
             .ratio("page_switches_per_fetch", false, |of| of.found.page_switches_per_fetch())
+    }
+
+    /// Capacity and conflict miss by miss, if somebody asked.
+    fn dinero(self, results: &[CacheResult]) -> Self {
+        let asked = |of: &CacheResult| of.counts().is_some_and(|counts| counts.more.missed_by_both.is_some());
+        if !results.iter().any(asked) {
+            return self;
+        }
+        let perhaps = |of: &CacheResult, number: fn(&CacheCounts) -> Option<u64>| perhaps(of.counts().and_then(number));
+        self.number("capacity_dinero", true, move |of| perhaps(of, CacheCounts::capacity_by_miss)).number(
+            "conflict_dinero",
+            true,
+            move |of| perhaps(of, CacheCounts::conflict_by_miss),
+        )
+    }
+
+    /// Rows of DRAM, if somebody asked.
+    fn dram(self, results: &[CacheResult]) -> Self {
+        let of_rows = |of: &CacheResult| of.counts().and_then(|counts| counts.more.dram);
+        if !results.iter().any(|of| of_rows(of).is_some()) {
+            return self;
+        }
+        self.number("row_hits", true, move |of| perhaps(of_rows(of).map(|rows| rows.hits)))
+            .number("row_conflicts", true, move |of| perhaps(of_rows(of).map(|rows| rows.conflicts)))
+            .number("activates", true, move |of| perhaps(of_rows(of).map(|rows| rows.activates)))
+            .ratio("activates_per_fetch", true, |of| {
+                of.counts().and_then(CacheCounts::activates_per_fetch).unwrap_or(f64::NAN)
+            })
     }
 
     /// Distinct lines of searches and of batches.
