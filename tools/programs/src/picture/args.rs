@@ -46,9 +46,9 @@ pub(super) struct Args {
     /// Nearest photons of caustics that are asked for at each point seen [default: 50]
     #[arg(long, value_name = "K", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     pub(super) caustics_k: Option<u32>,
-    /// Structure of the photon maps
-    #[arg(long, value_name = "MAP", default_value = "wide", hide_short_help = true, value_parser = entry(&structures()))]
-    pub(super) map: &'static dyn Structure,
+    /// Structure of the photon maps, where pm-gather is not to choose
+    #[arg(long, value_name = "MAP", hide_short_help = true, value_parser = entry(&structures()))]
+    pub(super) map: Option<&'static dyn Structure>,
     /// Send more gather rays to where photons come from: for light that comes through gaps or off small bright spots
     #[arg(long)]
     pub(super) guide: bool,

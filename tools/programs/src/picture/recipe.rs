@@ -81,7 +81,8 @@ impl Recipe<'_> {
     /// What a map answers queries from standard input with.
     fn gather(&self, photons: &str, k: u32, options: &[&str]) -> Vec<String> {
         let threads = self.args.common.threads.to_string();
-        let mut words = said(&["-q", &self.file(photons), "-", "--map", self.args.map.word(), "-k", &k.to_string()]);
+        let mut words = said(&["-q", &self.file(photons), "-", "-k", &k.to_string()]);
+        words.extend(self.args.map.into_iter().flat_map(|map| said(&["--map", map.word()])));
         words.extend(said(options));
         words.extend(said(&["--no-trace", "-t", &threads]));
         words
