@@ -2,8 +2,8 @@
 
 use pm_exchange::traces::text::{hexadecimal, number, quoted, size, words};
 use pm_exchange::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use std::io::{self, Write};
 
@@ -25,10 +25,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Arrows {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         None
     }

@@ -43,10 +43,6 @@ impl TraceImport for Boasts {
 }
 
 impl TraceImport for Grabs {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize::BYTE)
     }

@@ -6,8 +6,10 @@ use pm_registry::Registered;
 
 /// A format of traces that is read: an entry of [`imports`](super::imports).
 pub trait TraceImport: Registered + Sync {
-    /// What its entries are.
-    fn shape(&self) -> EntryShape;
+    /// What its entries are: lines, if it does not say otherwise.
+    fn shape(&self) -> EntryShape {
+        EntryShape::Line
+    }
 
     /// Bytes of an access whose entry does not say, and a remark for the table of formats; `None` if every entry says.
     fn assumed_size(&self) -> Option<AssumedSize>;

@@ -8,8 +8,8 @@ mod columns;
 
 use crate::traces::text::{number, quoted, size};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, ParserOfColumns, Piece,
-    PieceWriter, Reference, TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, ParserOfColumns, Piece, PieceWriter,
+    Reference, TraceExport, TraceImport, Unwritten,
 };
 use columns::Columns;
 use pm_formats::trace::AccessKind;
@@ -67,10 +67,6 @@ fn kind(field: &[u8]) -> Result<EntryKind, String> {
 }
 
 impl TraceImport for Csv {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize::BYTE)
     }

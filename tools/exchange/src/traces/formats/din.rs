@@ -5,8 +5,8 @@
 
 use crate::traces::text::{hexadecimal, quoted, words};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use std::io::{self, Write};
 
@@ -36,10 +36,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Din {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize { bytes: 4, aligned: true })
     }

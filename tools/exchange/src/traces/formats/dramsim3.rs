@@ -8,8 +8,8 @@
 
 use crate::traces::text::{hexadecimal, number, quoted, words};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use std::io::{self, Write};
 
@@ -34,10 +34,6 @@ fn parse(line: &[u8]) -> Parsed {
 const NEVER: u64 = i64::MAX.cast_unsigned();
 
 impl TraceImport for Dramsim3 {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         // What a memory transfers at once.
         Some(AssumedSize::bytes(64))

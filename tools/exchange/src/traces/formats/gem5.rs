@@ -5,7 +5,7 @@
 //! line is refused.
 
 use crate::traces::text::{number, quoted, size};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// gem5's packets as its decode_packet_trace.py prints them: r or w, address, bytes, perhaps flags, tick
@@ -32,10 +32,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Gem5 {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         None
     }

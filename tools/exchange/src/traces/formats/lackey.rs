@@ -6,8 +6,8 @@
 
 use crate::traces::text::{hexadecimal, number, quoted, size};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use pm_formats::trace::AccessKind;
 use std::io::{self, Write};
@@ -40,10 +40,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Lackey {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         None
     }

@@ -2,7 +2,7 @@
 //! of the simple examples adds the bytes, decimal, and the value. Lines that begin with `#` are comments.
 
 use crate::traces::text::{hexadecimal, number, quoted, size, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// Pin's pinatrace: instruction, R or W, address, and perhaps bytes and a value, such as 0x401000: R 0x7ffe10
@@ -27,10 +27,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Pinatrace {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize::BYTE)
     }

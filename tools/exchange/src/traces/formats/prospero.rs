@@ -2,7 +2,7 @@
 //! decimal, such as `12 R 140732920755216 8`.
 
 use crate::traces::text::{number, quoted, size, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// SST's prospero, text: cycle, R or W, address and bytes, decimal, such as 12 R 4096 8
@@ -27,10 +27,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Prospero {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         None
     }

@@ -1,7 +1,7 @@
 //! `ramulator1`: requests to a memory for Ramulator 1 (`--mode=dram`), such as `0x12345680 R`; the address is hexadecimal.
 
 use crate::traces::text::{hexadecimal, quoted, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// Ramulator 1, of a memory: address, and R or W, such as 0x12345680 R
@@ -18,10 +18,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Ramulator1 {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         // What a memory transfers at once.
         Some(AssumedSize::bytes(64))

@@ -2,8 +2,8 @@
 
 use crate::traces::text::{number, quoted, words};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use std::io::{self, Write};
 
@@ -24,10 +24,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Ramulator2 {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         // What a memory transfers at once.
         Some(AssumedSize::bytes(64))

@@ -4,7 +4,7 @@
 //! Such lines may be those of `din` as well, which are then told apart by name.
 
 use crate::traces::text::{number, quoted, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// Ramulator 1 and 2, of a core: instructions between, address read, address written back if any, such as 3 20734016
@@ -40,10 +40,6 @@ impl EntryParser for Parser {
 }
 
 impl TraceImport for RamulatorCpu {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         // What a memory transfers at once.
         Some(AssumedSize::bytes(64))

@@ -8,7 +8,7 @@
 mod width;
 
 use crate::traces::text::{hexadecimal, quoted, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 use std::collections::VecDeque;
 
 pm_registry::registered! {
@@ -82,10 +82,6 @@ impl EntryParser for Parser {
 }
 
 impl TraceImport for Spike {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         Some(AssumedSize::bytes(8))
     }

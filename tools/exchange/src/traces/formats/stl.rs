@@ -2,7 +2,7 @@
 //! the address, hexadecimal, and perhaps the data. Lines that begin with `#` are comments. A colon may follow the cycle.
 
 use crate::traces::text::{hexadecimal, number, quoted, size, words};
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, Example, Parsed, Reference, TraceImport};
 
 pm_registry::registered! {
     /// DRAMSys: cycle, perhaps (bytes), read or write, address, such as 31: (64) read 0x400140
@@ -29,10 +29,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Stl {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         // What a memory transfers at once.
         Some(AssumedSize::bytes(64))

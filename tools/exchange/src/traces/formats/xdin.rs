@@ -2,8 +2,8 @@
 
 use crate::traces::text::{hexadecimal, quoted, size, words};
 use crate::traces::{
-    AssumedSize, Carried, EntryKind, EntryParser, EntryShape, Example, Kinds, Parsed, Piece, PieceWriter, Reference,
-    TraceExport, TraceImport, Unwritten,
+    AssumedSize, Carried, EntryKind, EntryParser, Example, Kinds, Parsed, Piece, PieceWriter, Reference, TraceExport,
+    TraceImport, Unwritten,
 };
 use std::io::{self, Write};
 
@@ -30,10 +30,6 @@ fn parse(line: &[u8]) -> Parsed {
 }
 
 impl TraceImport for Xdin {
-    fn shape(&self) -> EntryShape {
-        EntryShape::Line
-    }
-
     fn assumed_size(&self) -> Option<AssumedSize> {
         None
     }
