@@ -91,6 +91,7 @@ include scripts/accuracy.mk
 include scripts/pictures.mk
 include scripts/paper.mk
 include scripts/coverage.mk
+include scripts/bench.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 
@@ -119,9 +120,6 @@ stability: ## Photon maps under stress: out/stability.txt, a table of structures
 	mkdir -p out
 	PM_STABILITY_TABLE=$(CURDIR)/out/stability.txt $(CARGO) test -q -p pm-maps --release --lib stability
 	@cat out/stability.txt
-
-bench: ## Speed, as ratios measured side by side
-	$(CARGO) bench -p pm-programs
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man

@@ -1,0 +1,30 @@
+# make bench: speed, as ratios measured side by side in one run. The peers are built by nothing else.
+
+TAKEN += bench
+PEERS := --release --manifest-path tests/peers/Cargo.toml
+BENCH_PHOTONS := out/bench/450000.pmp out/bench/100000.pmp
+BENCH_QUERIES := out/bench/hilbert.pmq out/bench/scanline.pmq
+
+bench: $(BENCH_PHOTONS) $(BENCH_QUERIES) ## Speed, as ratios measured side by side, to other libraries as well: five minutes
+	$(CARGO) bench -p pm-programs
+	RUSTFLAGS='-C target-cpu=native' $(CARGO) build $(PEERS) --target-dir target/native
+	$(CARGO) build $(PEERS) --target-dir target/peers
+	target/peers/release/pm-peers 7 target/native/release/pm-peers 10,50,100,500 $(BENCH_PHOTONS) $(BENCH_QUERIES)
+
+out/bench/%.pmp: $(call made_with,PROGRAMS)
+	@mkdir -p $(@D)
+	$(BIN)/pm-photons -q -n $* -t $(THREADS) -o $@
+
+# The paper's queries, of which windows are measured: all of them make the orders as dense as they are.
+.INTERMEDIATE: out/bench/all.pmq
+out/bench/all.pmq: $(call made_with,PROGRAMS)
+	@mkdir -p $(@D)
+	$(BIN)/pm-queries -q --size 512x512 --gathers 100 -t $(THREADS) -o $@
+
+BENCH_WINDOWS := --every 599808 --window 256 --warm-up 0
+
+out/bench/scanline.pmq: out/bench/all.pmq
+	$(BIN)/pm-sample -q $(BENCH_WINDOWS) $< -o $@
+
+out/bench/hilbert.pmq: out/bench/all.pmq
+	$(BIN)/pm-reorder -q hilbert $< | $(BIN)/pm-sample -q $(BENCH_WINDOWS) -o $@
