@@ -22,34 +22,31 @@ fn main() {
     };
     let version = std::env::var("CARGO_PKG_VERSION").unwrap_or_default();
     let revision = git(&["rev-parse", "--short=8", "HEAD"]);
-    let dirty = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|status| !status.is_empty());
+    // Of what the programs are built from: a page that was changed makes no other program.
+    let root = Path::new("../..");
+    let status = ["-C", "../..", "status", "--porcelain", "--untracked-files=no", "--", ":(exclude)*.md"];
+    let dirty = git(&[&status[..], &SOURCES[..]].concat()).is_some_and(|status| !status.is_empty());
     let version = match revision {
         Some(revision) => format!("{version} (rev {revision}{})", if dirty { ", dirty" } else { "" }),
         None => format!("{version} (rev unknown)"),
     };
     println!("cargo::rustc-env=PM_VERSION={version}");
-    // A new commit or a changed source changes the string.
-    for path in [
-        "../../.git/HEAD",
-        "../../.git/logs/HEAD",
-        "../../.git/index",
-        "..",
-        "../../formats",
-        "../../scenes",
-        "../../Cargo.lock",
-    ] {
-        if Path::new(path).exists() {
+    // A new commit or a changed source changes the string. Not the index: every `git status` writes it anew.
+    for name in ["HEAD", "logs/HEAD"] {
+        let path = git(&["rev-parse", "--git-path", name]);
+        if let Some(path) = path.filter(|path| Path::new(path).exists()) {
             println!("cargo::rerun-if-changed={path}");
         }
     }
 
-    let root = Path::new("../..");
     let mut files = vec![];
     SOURCES.iter().for_each(|source| list(&root.join(source), &mut files));
     files.sort();
     let is_reporting = |name: &str| REPORTING.iter().any(|part| name.contains(part));
     let (mut programs, mut reporting) = (Xxh3::new(), Xxh3::new());
     for file in files {
+        // File by file: of a folder cargo watches all, pages and tests too.
+        println!("cargo::rerun-if-changed={}", file.display());
         let name = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().into_owned();
         let fingerprint = if is_reporting(&name) { &mut reporting } else { &mut programs };
         let text = std::fs::read(&file).unwrap_or_default();
