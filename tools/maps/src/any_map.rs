@@ -18,6 +18,8 @@ pub trait AnyMap: Send + Sync {
     fn padding(&self) -> Option<u32>;
     /// See [`PhotonMap::is_exact`].
     fn is_exact(&self) -> bool;
+    /// See [`PhotonMap::narrows`].
+    fn narrows(&self) -> bool;
     /// See [`PhotonMap::measures`].
     fn measures(&self) -> Vec<(&'static str, Number)>;
     /// See [`PhotonMap::blocks`].
@@ -49,6 +51,10 @@ impl<M: PhotonMap> AnyMap for M {
 
     fn is_exact(&self) -> bool {
         PhotonMap::is_exact(self)
+    }
+
+    fn narrows(&self) -> bool {
+        PhotonMap::narrows(self)
     }
 
     fn measures(&self) -> Vec<(&'static str, Number)> {
@@ -88,6 +94,10 @@ impl PhotonMap for dyn AnyMap + '_ {
 
     fn is_exact(&self) -> bool {
         AnyMap::is_exact(self)
+    }
+
+    fn narrows(&self) -> bool {
+        AnyMap::narrows(self)
     }
 
     fn measures(&self) -> Vec<(&'static str, Number)> {

@@ -49,7 +49,7 @@ impl Carry {
         eyes: &mut impl AccessObserver,
     ) -> u32 {
         let attempts = search.run_within(self.known(point), map, point, found, eyes);
-        self.last = found.farthest().filter(|_| found.is_full()).map(|(distance, _)| (point, distance.sqrt()));
+        self.last = found.is_full().then(|| (point, found.bound().sqrt()));
         attempts
     }
 }

@@ -1,6 +1,7 @@
 //! The k nearest so far.
 
-use crate::candidates::Candidates;
+use crate::candidates::Room;
+use std::sync::Arc;
 
 /// Keeps the k nearest of the photons it is shown, within a bound that shrinks once there are k.
 ///
@@ -12,10 +13,12 @@ pub struct Nearest {
     bound: f32,
     /// Photons at most so far, squared, are sure to be among the k nearest; negative if nothing is known.
     floor: f32,
-    /// The farthest, where the nearest were selected at the end.
-    settled: Option<u64>,
+    /// Distance and place of the farthest, where the nearest were selected at the end.
+    settled: Option<(f32, u32)>,
+    /// Ids of the photons in their places, where the nearest were selected at the end.
+    ids: Arc<[u32]>,
     /// Room for those who select at the end.
-    pub(crate) candidates: Candidates,
+    pub(crate) room: Room,
 }
 
 impl Nearest {
@@ -32,7 +35,8 @@ impl Nearest {
             bound,
             floor: -1.0,
             settled: None,
-            candidates: Candidates::default(),
+            ids: Arc::default(),
+            room: Room::default(),
         }
     }
 
@@ -46,6 +50,7 @@ impl Nearest {
     #[inline]
     pub fn restart_between(&mut self, floor: f32, bound: f32) {
         self.keys.clear();
+        self.room.forget();
         self.bound = bound;
         self.floor = floor;
         self.settled = None;
@@ -58,17 +63,18 @@ impl Nearest {
         self.floor
     }
 
-    /// Takes the nearest as they were selected, at most k, and the key of the farthest: those that were shown before are
-    /// forgotten, and no more may be shown before the next start.
+    /// The nearest have been selected, and are what is chosen: distance and place of the farthest, and the ids of the map's
+    /// photons in their places. No photon may be shown before the next start.
     #[inline(always)]
-    pub(crate) fn settle(&mut self, distances: &[f32], ids: &[u32], farthest: u64) {
-        debug_assert!(distances.len() <= self.k);
-        self.keys.clear();
-        let pairs = distances.iter().zip(ids);
-        self.keys.extend(pairs.map(|(&distance, &id)| rank(distance, id)));
+    pub(crate) fn settle(&mut self, farthest: (f32, u32), ids: &Arc<[u32]>) {
+        debug_assert!(self.keys.is_empty() && self.room.chosen.len <= self.k);
+        // One map after the other is searched thousands of times: to count it each time would be the dearest of all.
+        if !Arc::ptr_eq(&self.ids, ids) {
+            self.ids = Arc::clone(ids);
+        }
         self.settled = Some(farthest);
         if self.is_full() {
-            self.bound = distance_of(farthest);
+            self.bound = farthest.0;
         }
     }
 
@@ -138,27 +144,27 @@ impl Nearest {
     #[inline]
     #[must_use]
     pub fn len(&self) -> usize {
-        self.keys.len()
+        self.keys.len() + self.room.chosen.len
     }
 
     /// True if none was found.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.keys.is_empty()
+        self.len() == 0
     }
 
     /// True if k were found.
     #[inline]
     #[must_use]
     pub fn is_full(&self) -> bool {
-        self.keys.len() == self.k
+        self.len() == self.k
     }
 
     /// Squared distance and id of the farthest photon found.
     #[must_use]
     pub fn farthest(&self) -> Option<(f32, u32)> {
         let key = match self.settled {
-            Some(farthest) => (!self.keys.is_empty()).then_some(farthest),
+            Some((distance, place)) => return (!self.is_empty()).then(|| (distance, self.ids[place as usize])),
             None if self.is_full() => self.keys.first().copied(),
             None => self.keys.iter().max().copied(),
         };
@@ -167,13 +173,14 @@ impl Nearest {
 
     /// The photons found, in no particular order, as squared distance and id.
     pub fn iter(&self) -> impl Iterator<Item = (f32, u32)> {
-        self.keys.iter().map(|&key| (distance_of(key), id_of(key)))
+        let chosen = self.room.chosen.iter().map(|(distance, place)| (distance, self.ids[place as usize]));
+        self.keys.iter().map(|&key| (distance_of(key), id_of(key))).chain(chosen)
     }
 
     /// The photons found, nearest first, ties by id.
     #[must_use]
     pub fn sorted(&self) -> Vec<(f32, u32)> {
-        let mut keys = self.keys.clone();
+        let mut keys: Vec<u64> = self.iter().map(|(distance, id)| rank(distance, id)).collect();
         keys.sort_unstable();
         keys.into_iter().map(|key| (distance_of(key), id_of(key))).collect()
     }

@@ -31,6 +31,11 @@ pub trait PhotonMap: Send + Sync {
         true
     }
 
+    /// Does a search narrow its radius as it finds photons? Of one that does not, the first radius is all that matters.
+    fn narrows(&self) -> bool {
+        true
+    }
+
     /// What building it has brought to light, by name: the same for the same photons and values.
     fn measures(&self) -> Vec<(&'static str, Number)> {
         vec![]

@@ -48,8 +48,8 @@ impl Search {
         let sure = known.enough;
         // An approximate map reads no less for a smaller radius, and may never find k photons.
         let start = match map.is_exact() {
-            // A hint a little below what is sure to do would seldom save much and sometimes fail.
-            true if self.start * 2.0 < sure => self.start,
+            // A hint a little below what is sure to do would seldom save much and sometimes fail, if a search narrows its radius.
+            true if self.start * if map.narrows() { 2.0 } else { 1.0 } < sure => self.start,
             true => sure,
             false => self.max_dist,
         };

@@ -19,6 +19,7 @@ use crate::error::check;
 use crate::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
+use std::sync::Arc;
 
 /// Number of the region that holds the nodes.
 const NODES: u16 = 0;
@@ -38,7 +39,6 @@ pub(crate) struct Boxes {
 #[repr(C, align(64))]
 pub(crate) struct Leaf {
     pub(crate) position: [[f32; WIDTH]; 3],
-    pub(crate) id: [u32; WIDTH],
 }
 
 /// Nodes of one level: children of node i are 16 i to 16 i + 15 of the level below, or leaves.
@@ -56,6 +56,8 @@ pub struct WideTree {
     pub(crate) levels: Vec<Level>,
     pub(crate) nodes: Vec<Boxes>,
     pub(crate) leaves: Vec<Leaf>,
+    /// Ids of the photons: those of the first leaf, lane by lane, and so on. Asked for at the end of a search only.
+    pub(crate) ids: Arc<[u32]>,
     pub(crate) photons: usize,
     instructions: Instructions,
 }
@@ -95,6 +97,10 @@ impl PhotonMap for WideTree {
 
     fn len(&self) -> usize {
         self.photons
+    }
+
+    fn narrows(&self) -> bool {
+        false
     }
 
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {

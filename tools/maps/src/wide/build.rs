@@ -4,11 +4,12 @@ use super::{Boxes, Instructions, Leaf, Level, WIDTH, WideTree};
 use crate::geometry::{Box3, extent, longest_axis};
 use crate::point::Point;
 use pm_formats::Photon;
+use std::sync::Arc;
 
 /// Not a box: nothing is near it.
 const NO_BOXES: Boxes = Boxes { low: [[f32::NAN; WIDTH]; 3], high: [[f32::NAN; WIDTH]; 3] };
 /// No photons.
-const EMPTY: Leaf = Leaf { position: [[f32::NAN; WIDTH]; 3], id: [0; WIDTH] };
+const EMPTY: Leaf = Leaf { position: [[f32::NAN; WIDTH]; 3] };
 
 /// The tree of photons that were checked.
 pub(super) fn build(photons: &[Photon], instructions: Instructions) -> WideTree {
@@ -28,10 +29,14 @@ pub(super) fn build(photons: &[Photon], instructions: Instructions) -> WideTree 
         first += *count as u32;
     }
     let nodes = vec![NO_BOXES; first as usize];
-    let mut tree = WideTree { levels, nodes, leaves: vec![EMPTY; leaves], photons: photons.len(), instructions };
+    let ids = Arc::default();
+    let mut tree = WideTree { levels, nodes, leaves: vec![EMPTY; leaves], ids, photons: photons.len(), instructions };
+    let mut points = Point::all(photons);
     if leaves > 0 {
-        tree.divide(0, 0, &mut Point::all(photons));
+        tree.divide(0, 0, &mut points);
     }
+    // All leaves but the last are full: the photons lie as they were sorted.
+    tree.ids = points.iter().map(|point| point.id).collect();
     tree
 }
 
@@ -75,7 +80,6 @@ impl WideTree {
             for axis in 0..3 {
                 leaf.position[axis][lane] = point.position[axis];
             }
-            leaf.id[lane] = point.id;
         }
     }
 }

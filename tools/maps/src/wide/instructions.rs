@@ -8,7 +8,6 @@
 use super::kernels::{Kernels, Plain};
 use super::search::search;
 use super::{WIDTH, WideTree};
-use crate::candidates::Candidates;
 use crate::{AccessObserver, Nearest};
 
 /// Kinds of instructions.
@@ -62,6 +61,9 @@ impl Instructions {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.
             Self::Avx2 => unsafe { x86::avx2(tree, point, found, eyes) },
+            #[cfg(target_arch = "x86_64")]
+            Self::Plain => search::<x86::Sse>(tree, point, found, eyes),
+            #[cfg(not(target_arch = "x86_64"))]
             _ => search::<Plain>(tree, point, found, eyes),
         }
     }
@@ -82,6 +84,54 @@ mod x86 {
         search::<Avx2>(tree, point, found, eyes);
     }
 
+    /// Plain loops but for the mask, of which compilers make sixteen comparisons.
+    pub(super) struct Sse;
+
+    impl Kernels for Sse {
+        #[inline(always)]
+        fn within(distances: &[f32; WIDTH], bound: f32) -> u32 {
+            let mut mask = 0;
+            for quarter in 0..4 {
+                // SAFETY: every x86-64 has SSE; the four quarters make up the array.
+                let four = unsafe {
+                    let these = _mm_loadu_ps(distances.as_ptr().add(4 * quarter));
+                    _mm_movemask_ps(_mm_cmple_ps(these, _mm_set1_ps(bound)))
+                };
+                mask |= (four as u32) << (4 * quarter);
+            }
+            mask
+        }
+
+        #[inline(always)]
+        fn append_to(
+            to: (&mut [f32], &mut [u32]),
+            at: usize,
+            distances: &[f32; WIDTH],
+            places: &[u32; WIDTH],
+            mask: u32,
+        ) {
+            Plain::append_to(to, at, distances, places, mask);
+        }
+
+        #[inline(always)]
+        fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32) {
+            Plain::append_leaf(to, at, distances, first, mask);
+        }
+
+        #[inline(always)]
+        fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mask: u32) {
+            Plain::append_numbers(to, len, first, mask);
+        }
+
+        #[inline(always)]
+        fn count(distances: &[[f32; WIDTH]], bound: f32) -> usize {
+            Plain::count(distances, bound)
+        }
+    }
+
+    /// The numbers of lanes.
+    static LANES: [u32; WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
     /// Sixteen lanes.
     struct Avx512;
 
@@ -96,17 +146,47 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mask: u32) {
-            let at = candidates.len;
-            let (to_distances, to_ids) = (&mut candidates.distances[at..][..WIDTH], &mut candidates.ids[at..][..WIDTH]);
+        fn append_to(
+            (to_distances, to_places): (&mut [f32], &mut [u32]),
+            at: usize,
+            distances: &[f32; WIDTH],
+            places: &[u32; WIDTH],
+            mask: u32,
+        ) {
+            let (to_distances, to_places) = (&mut to_distances[at..][..WIDTH], &mut to_places[at..][..WIDTH]);
             // SAFETY: only `avx512` searches by these kernels; each slice has sixteen elements.
             unsafe {
                 let packed = _mm512_maskz_compress_ps(mask as u16, _mm512_loadu_ps(distances.as_ptr()));
                 _mm512_storeu_ps(to_distances.as_mut_ptr(), packed);
-                let packed = _mm512_maskz_compress_epi32(mask as u16, _mm512_loadu_si512(ids.as_ptr().cast()));
-                _mm512_storeu_si512(to_ids.as_mut_ptr().cast(), packed);
+                let packed = _mm512_maskz_compress_epi32(mask as u16, _mm512_loadu_si512(places.as_ptr().cast()));
+                _mm512_storeu_si512(to_places.as_mut_ptr().cast(), packed);
             }
-            candidates.len = at + mask.count_ones() as usize;
+        }
+
+        #[inline(always)]
+        fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32) {
+            let (to_distances, to_places) = (&mut to.0[at..][..WIDTH], &mut to.1[at..][..WIDTH]);
+            // SAFETY: only `avx512` searches by these kernels; each slice has sixteen elements.
+            unsafe {
+                let packed = _mm512_maskz_compress_ps(mask as u16, _mm512_loadu_ps(distances.as_ptr()));
+                _mm512_storeu_ps(to_distances.as_mut_ptr(), packed);
+                let lanes = _mm512_loadu_si512(LANES.as_ptr().cast());
+                let places = _mm512_add_epi32(lanes, _mm512_set1_epi32(first as i32));
+                let packed = _mm512_maskz_compress_epi32(mask as u16, places);
+                _mm512_storeu_si512(to_places.as_mut_ptr().cast(), packed);
+            }
+        }
+
+        #[inline(always)]
+        fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mask: u32) {
+            let room = &mut to[*len..][..WIDTH];
+            // SAFETY: only `avx512` searches by these kernels; the slice has sixteen elements.
+            unsafe {
+                let lanes = _mm512_loadu_si512(LANES.as_ptr().cast());
+                let numbers = _mm512_add_epi32(lanes, _mm512_set1_epi32(first as i32));
+                _mm512_storeu_si512(room.as_mut_ptr().cast(), _mm512_maskz_compress_epi32(mask as u16, numbers));
+            }
+            *len += mask.count_ones() as usize;
         }
     }
 
@@ -144,21 +224,57 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mask: u32) {
+        fn append_to(
+            (to_distances, to_places): (&mut [f32], &mut [u32]),
+            mut at: usize,
+            distances: &[f32; WIDTH],
+            places: &[u32; WIDTH],
+            mask: u32,
+        ) {
             for half in 0..2 {
                 let (from, mask) = (8 * half, (mask >> (8 * half) & 255) as usize);
-                let at = candidates.len;
-                let to_distances = &mut candidates.distances[at..][..8];
-                let to_ids = &mut candidates.ids[at..][..8];
+                let (to_distances, to_places) = (&mut to_distances[at..][..8], &mut to_places[at..][..8]);
                 // SAFETY: only `avx2` searches by these kernels; the slices have eight elements, and so have the halves.
                 unsafe {
                     let order = _mm256_loadu_si256(PACK[mask].as_ptr().cast());
                     let packed = _mm256_permutevar8x32_ps(_mm256_loadu_ps(distances.as_ptr().add(from)), order);
                     _mm256_storeu_ps(to_distances.as_mut_ptr(), packed);
-                    let these = _mm256_loadu_si256(ids.as_ptr().add(from).cast());
-                    _mm256_storeu_si256(to_ids.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(these, order));
+                    let these = _mm256_loadu_si256(places.as_ptr().add(from).cast());
+                    _mm256_storeu_si256(to_places.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(these, order));
                 }
-                candidates.len = at + mask.count_ones() as usize;
+                at += mask.count_ones() as usize;
+            }
+        }
+
+        #[inline(always)]
+        fn append_leaf(to: (&mut [f32], &mut [u32]), mut at: usize, distances: &[f32; WIDTH], first: u32, mask: u32) {
+            for half in 0..2 {
+                let mask = (mask >> (8 * half) & 255) as usize;
+                let (to_distances, to_places) = (&mut to.0[at..][..8], &mut to.1[at..][..8]);
+                // SAFETY: only `avx2` searches by these kernels; the slices have eight elements, and so have the halves.
+                unsafe {
+                    let order = _mm256_loadu_si256(PACK[mask].as_ptr().cast());
+                    let half_of_them = _mm256_loadu_ps(distances.as_ptr().add(8 * half as usize));
+                    _mm256_storeu_ps(to_distances.as_mut_ptr(), _mm256_permutevar8x32_ps(half_of_them, order));
+                    let places = _mm256_add_epi32(order, _mm256_set1_epi32((first + 8 * half) as i32));
+                    _mm256_storeu_si256(to_places.as_mut_ptr().cast(), places);
+                }
+                at += mask.count_ones() as usize;
+            }
+        }
+
+        #[inline(always)]
+        fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mask: u32) {
+            for half in 0..2 {
+                let mask = (mask >> (8 * half) & 255) as usize;
+                let room = &mut to[*len..][..8];
+                // SAFETY: only `avx2` searches by these kernels; the slice has eight elements.
+                unsafe {
+                    let order = _mm256_loadu_si256(PACK[mask].as_ptr().cast());
+                    let numbers = _mm256_add_epi32(order, _mm256_set1_epi32((first + 8 * half) as i32));
+                    _mm256_storeu_si256(room.as_mut_ptr().cast(), numbers);
+                }
+                *len += mask.count_ones() as usize;
             }
         }
     }

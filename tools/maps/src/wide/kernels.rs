@@ -13,8 +13,22 @@ pub(super) trait Kernels {
     /// The lanes (a bit each) whose squared distance is at most `bound`.
     fn within(distances: &[f32; WIDTH], bound: f32) -> u32;
 
-    /// Appends the lanes of `mask`. There is room for all.
-    fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mask: u32);
+    /// Puts the lanes of `mask` there, from `at` on, where there is room for sixteen.
+    fn append_to(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], places: &[u32; WIDTH], mask: u32);
+
+    /// The same where the places of the lanes are those from `first` on.
+    fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32);
+
+    /// Appends the lanes of `mask`, counted from `first` on. There is room for sixteen.
+    fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mask: u32);
+
+    /// Appends the lanes of `mask`. There is room for sixteen.
+    #[inline(always)]
+    fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], places: &[u32; WIDTH], mask: u32) {
+        let to = (&mut candidates.distances[..], &mut candidates.places[..]);
+        Self::append_to(to, candidates.len, distances, places, mask);
+        candidates.len += mask.count_ones() as usize;
+    }
 
     /// How many of these are at most `bound`.
     #[inline(always)]
@@ -71,18 +85,46 @@ impl Kernels for Plain {
     }
 
     #[inline(always)]
-    fn append(candidates: &mut Candidates, distances: &[f32; WIDTH], ids: &[u32; WIDTH], mut mask: u32) {
-        let at = candidates.len;
-        let (to_distances, to_ids) = (&mut candidates.distances[at..][..WIDTH], &mut candidates.ids[at..][..WIDTH]);
+    fn append_to(
+        (to_distances, to_places): (&mut [f32], &mut [u32]),
+        at: usize,
+        distances: &[f32; WIDTH],
+        places: &[u32; WIDTH],
+        mut mask: u32,
+    ) {
+        let (to_distances, to_places) = (&mut to_distances[at..][..WIDTH], &mut to_places[at..][..WIDTH]);
         let mut number = 0;
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % WIDTH;
             mask &= mask - 1;
             to_distances[number % WIDTH] = distances[lane];
-            to_ids[number % WIDTH] = ids[lane];
+            to_places[number % WIDTH] = places[lane];
             number += 1;
         }
-        candidates.len = at + number;
+    }
+
+    #[inline(always)]
+    fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32) {
+        if mask == 0 {
+            return;
+        }
+        let (to_distances, to_places) = (&mut to.0[at..][..WIDTH], &mut to.1[at..][..WIDTH]);
+        // All of them, the next over one that is not wanted: no processor foresees a mask.
+        let mut number = 0;
+        for lane in 0..WIDTH {
+            to_distances[number % WIDTH] = distances[lane];
+            to_places[number % WIDTH] = first + lane as u32;
+            number += (mask >> lane & 1) as usize;
+        }
+    }
+
+    #[inline(always)]
+    fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mut mask: u32) {
+        while mask != 0 {
+            to[*len] = first + mask.trailing_zeros();
+            mask &= mask - 1;
+            *len += 1;
+        }
     }
 
     #[inline(always)]

@@ -1,13 +1,20 @@
 //! The one search, whatever the instructions.
+//!
+//! Nodes are visited level by level, as long as there is room to set their children aside: how often a loop goes round is then
+//! known once a level, and not once a node, and processors foresee it.
 
 use super::kernels::{Kernels, box_distances, leaf_distances};
-use super::select::{select, shrink};
+use super::select::select;
 use super::{LEAVES, NODES, WIDTH, WideTree};
-use crate::nearest::distance_of;
+use crate::candidates::{MOST_OPEN, Room};
 use crate::{AccessObserver, Nearest};
 
-/// Levels of the largest tree: 2^30 photons in leaves of 16, and 16 children a node.
-const MOST_LEVELS: usize = 8;
+/// Between which squared distances the k-th lies: all within `floor` are among the nearest, none beyond `bound` is.
+#[derive(Clone, Copy)]
+pub(super) struct Bounds {
+    pub(super) floor: f32,
+    pub(super) bound: f32,
+}
 
 /// Finds the photons nearest to `point` within the bound of `found`.
 #[inline(always)]
@@ -17,58 +24,94 @@ pub(super) fn search<K: Kernels>(
     found: &mut Nearest,
     eyes: &mut impl AccessObserver,
 ) {
-    let (k, mut bound) = (found.k(), found.bound());
-    if bound >= f32::MAX && k < tree.photons {
-        bound = bound.min(enough(tree, point, k, eyes));
+    let k = found.k();
+    let mut bounds = Bounds { floor: found.floor(), bound: found.bound() };
+    if bounds.bound >= f32::MAX && k < tree.photons {
+        bounds.bound = bounds.bound.min(enough(tree, point, k, eyes));
     }
-    let candidates = &mut found.candidates;
-    candidates.clear(room(k.min(tree.photons)));
+    let room = &mut found.room;
+    room.clear(k.min(tree.photons));
     let last = tree.levels.len() - 1;
-    // Number of a node, and its children that are yet to be visited.
-    let mut open = [(0_u32, 0_u32); MOST_LEVELS];
     let mut depth = 0;
-    let mut at = 0_u32;
+    room.open[0].numbers[0] = 0;
+    (room.open[0].len, room.open[0].visited) = (1, 0);
     loop {
-        let node = tree.levels[depth].first + at;
-        eyes.read(NODES, node);
-        let mut near = K::within(&box_distances(&tree.nodes[node as usize], point), bound);
-        if depth == last {
-            while near != 0 {
-                let number = at * WIDTH as u32 + near.trailing_zeros();
-                near &= near - 1;
-                let leaf = &tree.leaves[number as usize];
-                eyes.read(LEAVES, number);
-                eyes.examined(WIDTH);
-                let distances = leaf_distances(leaf, point);
-                K::append(candidates, &distances, &leaf.id, K::within(&distances, bound));
-                if candidates.len > candidates.most() {
-                    bound = bound.min(distance_of(shrink(candidates, k)));
-                }
+        open_children::<K>(tree, depth, point, bounds.bound, room, eyes);
+        if depth < last {
+            depth += 1;
+            // Below, if there is anything.
+            if room.open[depth].len > 0 {
+                continue;
             }
         } else {
-            open[depth] = (at, near);
-            depth += 1;
+            read_leaves::<K>(tree, point, &mut bounds, k, room, eyes);
         }
-        // The next child of the deepest node that has one left.
-        loop {
+        // The deepest level that has a node left.
+        while room.open[depth].visited == room.open[depth].len {
             if depth == 0 {
-                select::<K>(found, bound);
+                select::<K>(found, bounds, &tree.ids);
                 return;
-            }
-            let (above, left) = &mut open[depth - 1];
-            if *left != 0 {
-                at = *above * WIDTH as u32 + left.trailing_zeros();
-                *left &= *left - 1;
-                break;
             }
             depth -= 1;
         }
     }
 }
 
-/// Candidates that are collected before the nearest of them are selected, a leaf less.
-fn room(k: usize) -> usize {
-    (4 * k).clamp(k + 1024, k + 8192)
+/// Visits nodes of a level until all have been, or there is no room for the children of another.
+#[inline(always)]
+fn open_children<K: Kernels>(
+    tree: &WideTree,
+    depth: usize,
+    point: [f32; 3],
+    bound: f32,
+    room: &mut Room,
+    eyes: &mut impl AccessObserver,
+) {
+    let [level, below, ..] = &mut room.open[depth..] else { return };
+    (below.len, below.visited) = (0, 0);
+    let first = tree.levels[depth].first;
+    while level.visited < level.len && below.len <= MOST_OPEN {
+        let number = level.numbers[level.visited];
+        level.visited += 1;
+        let node = first + number;
+        eyes.read(NODES, node);
+        let near = K::within(&box_distances(&tree.nodes[node as usize], point), bound);
+        K::append_numbers(&mut below.numbers, &mut below.len, number * WIDTH as u32, near);
+    }
+}
+
+/// Sorts out the photons of all leaves that are open.
+#[inline(always)]
+fn read_leaves<K: Kernels>(
+    tree: &WideTree,
+    point: [f32; 3],
+    bounds: &mut Bounds,
+    k: usize,
+    room: &mut Room,
+    eyes: &mut impl AccessObserver,
+) {
+    let Room { chosen, shell, open } = room;
+    let open = &open[tree.levels.len()];
+    // In variables of their own, so that they need not be in memory at any moment.
+    let (mut chosen_len, mut shell_len, most) = (chosen.len, shell.len, shell.most());
+    for &number in &open.numbers[..open.len] {
+        eyes.read(LEAVES, number);
+        eyes.examined(WIDTH);
+        let distances = leaf_distances(&tree.leaves[number as usize], point);
+        let first = number * WIDTH as u32;
+        let near = K::within(&distances, bounds.bound);
+        let sure = near & K::within(&distances, bounds.floor);
+        K::append_leaf((&mut chosen.distances, &mut chosen.places), chosen_len, &distances, first, sure);
+        chosen_len += sure.count_ones() as usize;
+        K::append_leaf((&mut shell.distances, &mut shell.places), shell_len, &distances, first, near & !sure);
+        shell_len += (near & !sure).count_ones() as usize;
+        if shell_len > most {
+            shell.len = shell_len;
+            bounds.bound = bounds.bound.min(shell.shrink(k, &tree.ids));
+            shell_len = k;
+        }
+    }
+    (chosen.len, shell.len) = (chosen_len, shell_len);
 }
 
 /// A squared distance within which at least `k` photons lie: that to the far corner of a box that holds so many, on the way

@@ -2,9 +2,11 @@
 //! about the k-th are told apart at the end.
 
 use super::kernels::Kernels;
+use super::search::Bounds;
 use crate::Nearest;
-use crate::candidates::{Candidates, WIDTH};
-use crate::nearest::{distance_of, id_of, rank};
+use crate::candidates::{Candidates, Room, WIDTH};
+use crate::nearest::rank;
+use std::sync::Arc;
 
 /// Guesses by interpolation before halves are taken.
 const GUESSES: usize = 8;
@@ -14,43 +16,43 @@ const MOST_GUESSES: usize = GUESSES + 34;
 /// A distance and how many candidates are at most so far.
 type Counted = (f32, usize);
 
-/// Puts the k nearest of the candidates of `found`, none of which is farther than `bound`, where its answer is.
+/// Puts the k nearest where the answer of `found` is; `ids` are those of the photons by their places.
 #[inline(always)]
-pub(super) fn select<K: Kernels>(found: &mut Nearest, bound: f32) {
-    let (k, floor) = (found.k(), found.floor());
-    let mut candidates = std::mem::take(&mut found.candidates);
-    let farthest = if candidates.len > k {
-        candidates.pad();
-        let (sure, all) = split::<K>(&candidates, k, floor, bound);
+pub(super) fn select<K: Kernels>(found: &mut Nearest, bounds: Bounds, ids: &Arc<[u32]>) {
+    let k = found.k();
+    let Room { chosen, shell, .. } = &mut found.room;
+    // None, unless rounding has made too many sure.
+    let wanted = k - chosen.len.min(k);
+    shell.pad();
+    let farthest = if shell.len > wanted && wanted > 0 {
+        let (sure, all) = split::<K>(shell, wanted, bounds);
         if all.1 - sure.1 <= WIDTH {
-            part::<K>(&mut candidates, k, sure, all)
-        } else if all.1 == k {
-            keep::<K>(&mut candidates, all.0);
-            farthest(&candidates)
+            part::<K>(shell, wanted, sure, all, chosen, ids)
         } else {
-            shrink(&mut candidates, k)
+            if all.1 != wanted {
+                shell.shrink(wanted, ids);
+                shell.pad();
+            }
+            take::<K>(shell, all.0, chosen);
+            farthest(shell, all.0, ids)
         }
+    } else if wanted > 0 && shell.len > 0 {
+        take::<K>(shell, f32::INFINITY, chosen);
+        farthest(shell, f32::INFINITY, ids)
     } else {
-        candidates.pad();
-        farthest(&candidates)
+        chosen.pad();
+        farthest(chosen, f32::INFINITY, ids)
     };
-    found.settle(&candidates.distances[..candidates.len], &candidates.ids[..candidates.len], farthest);
-    found.candidates = candidates;
+    found.settle(farthest, ids);
 }
 
 /// Two distances between which the k-th lies: fewer than k are within the first, at least k within the second.
 ///
 /// Interpolated on the value, since photons of a surface are spread evenly over squared distances; then halves of the bits.
 #[inline(always)]
-fn split<K: Kernels>(candidates: &Candidates, k: usize, floor: f32, bound: f32) -> (Counted, Counted) {
-    let mut low = (-1.0, 0);
-    let mut high = (bound, candidates.len);
-    if floor > 0.0 && floor < bound {
-        let sure = K::count(candidates.padded(), floor);
-        if sure < k {
-            low = (floor, sure);
-        }
-    }
+fn split<K: Kernels>(candidates: &Candidates, k: usize, bounds: Bounds) -> (Counted, Counted) {
+    let mut low = (bounds.floor.max(-1.0), 0);
+    let mut high = (bounds.bound, candidates.len);
     for step in 0..MOST_GUESSES {
         if high.1 - low.1 <= WIDTH {
             break;
@@ -74,82 +76,88 @@ fn split<K: Kernels>(candidates: &Candidates, k: usize, floor: f32, bound: f32) 
     (low, high)
 }
 
-/// Keeps the candidates within `bound`.
+/// Takes the candidates within `bound`.
 #[inline(always)]
-fn keep<K: Kernels>(candidates: &mut Candidates, bound: f32) {
-    let len = std::mem::take(&mut candidates.len);
-    for from in (0..len).step_by(WIDTH) {
-        let (distances, ids) = candidates.lanes(from);
-        // What is written ends before what is read next.
-        K::append(candidates, &distances, &ids, K::within(&distances, bound));
+fn take<K: Kernels>(candidates: &Candidates, bound: f32, chosen: &mut Candidates) {
+    for from in (0..candidates.len).step_by(WIDTH) {
+        let (distances, places) = candidates.lanes(from);
+        K::append(chosen, &distances, &places, K::within(&distances, bound));
     }
 }
 
-/// Keeps the `sure`, and of the few others up to `all` as many, by distance and then id, as make k; the last of them.
+/// Takes the `sure`, and of the few others up to `all` as many, by distance and then id, as make k; the last of them.
 #[inline(always)]
-fn part<K: Kernels>(candidates: &mut Candidates, k: usize, sure: Counted, all: Counted) -> u64 {
-    let mut shell = Candidates::default();
-    shell.clear(WIDTH);
-    let len = std::mem::take(&mut candidates.len);
-    for from in (0..len).step_by(WIDTH) {
-        let (distances, ids) = candidates.lanes(from);
+fn part<K: Kernels>(
+    shell: &Candidates,
+    k: usize,
+    sure: Counted,
+    all: Counted,
+    chosen: &mut Candidates,
+    ids: &[u32],
+) -> (f32, u32) {
+    let (mut rim, mut numbers, mut len) = ([f32::NAN; 2 * WIDTH], [0; 2 * WIDTH], 0);
+    for from in (0..shell.len).step_by(WIDTH) {
+        let (distances, places) = shell.lanes(from);
         let inside = K::within(&distances, sure.0);
         let about = K::within(&distances, all.0) & !inside;
-        if about != 0 {
-            K::append(&mut shell, &distances, &ids, about);
+        K::append_to((&mut rim, &mut numbers), len, &distances, &places, about);
+        len += about.count_ones() as usize;
+        K::append(chosen, &distances, &places, inside);
+    }
+    let mut distances = [f32::NAN; WIDTH];
+    for lane in 0..WIDTH {
+        distances[lane] = if lane < len { rim[lane] } else { f32::NAN };
+    }
+    let places: [u32; WIDTH] = numbers[..WIDTH].try_into().expect("sixteen lanes");
+    let wanted = (k - sure.1) as u32;
+    // How many are as near as each: small numbers, which floats are good for as well.
+    let mut as_near = [0.0_f32; WIDTH];
+    for other in 0..WIDTH {
+        for lane in 0..WIDTH {
+            as_near[lane] += if distances[other] <= distances[lane] { 1.0 } else { 0.0 };
         }
-        K::append(candidates, &distances, &ids, inside);
     }
-    let (distances, ids) = shell.lanes(0);
-    let mut keys = [u64::MAX; WIDTH];
-    for lane in 0..shell.len {
-        keys[lane] = rank(distances[lane], ids[lane]);
+    let mut nearer = K::within(&as_near, wanted as f32) & ((1 << len) - 1);
+    let mut last = nearer & !K::within(&as_near, wanted as f32 - 1.0);
+    if last.count_ones() != 1 {
+        (nearer, last) = by_ids(&distances, &places, len, wanted, ids);
     }
-    let wanted = (k - candidates.len) as u64;
-    let (mut chosen, mut last) = (0, 0);
-    for lane in 0..shell.len {
-        let mut rank = 0;
-        for other in keys {
-            rank += u64::from(other < keys[lane]);
-        }
-        chosen |= u32::from(rank < wanted) << lane;
-        last = if rank + 1 == wanted { keys[lane] } else { last };
-    }
-    K::append(candidates, &distances, &ids, chosen);
-    last
+    K::append(chosen, &distances, &places, nearer);
+    let last = last.trailing_zeros() as usize % WIDTH;
+    (distances[last], places[last])
 }
 
-/// The farthest candidate; the largest id of equals. The room behind the last leaf is padded.
+/// The nearest `wanted` by distance and then id, and the last of them, where some are equally far.
+#[cold]
+fn by_ids(distances: &[f32; WIDTH], places: &[u32; WIDTH], len: usize, wanted: u32, ids: &[u32]) -> (u32, u32) {
+    let mut keys: Vec<(u64, usize)> =
+        (0..len).map(|lane| (rank(distances[lane], ids[places[lane] as usize]), lane)).collect();
+    keys.sort_unstable();
+    let nearest = &keys[..wanted as usize];
+    let bit = |&(_, lane): &(u64, usize)| 1 << lane;
+    (nearest.iter().map(bit).sum(), nearest.last().map_or(0, bit))
+}
+
+/// The farthest candidate within a bound; the largest id of equals. The room behind the last is padded.
 #[inline(always)]
-fn farthest(candidates: &Candidates) -> u64 {
+fn farthest(candidates: &Candidates, bound: f32, ids: &[u32]) -> (f32, u32) {
     let mut farthest = [0.0_f32; WIDTH];
     for lanes in candidates.padded() {
         for lane in 0..WIDTH {
-            farthest[lane] = if lanes[lane] > farthest[lane] { lanes[lane] } else { farthest[lane] };
+            let larger = lanes[lane] > farthest[lane] && lanes[lane] <= bound;
+            farthest[lane] = if larger { lanes[lane] } else { farthest[lane] };
         }
     }
     let mut most = 0.0;
     for lane in farthest {
         most = if lane > most { lane } else { most };
     }
-    let mut largest = 0;
-    for at in 0..candidates.len {
-        let id = if candidates.distances[at] == most { candidates.ids[at] } else { 0 };
-        largest = if id > largest { id } else { largest };
-    }
-    rank(most, largest)
+    (most, last_at(candidates, most, ids))
 }
 
-/// Keeps the k nearest of many candidates, whatever they are; the last of them.
+/// The place of the candidate at this distance; of several, of that with the largest id.
 #[cold]
-pub(super) fn shrink(candidates: &mut Candidates, k: usize) -> u64 {
-    let pairs = candidates.distances[..candidates.len].iter().zip(&candidates.ids);
-    let mut keys: Vec<u64> = pairs.map(|(&distance, &id)| rank(distance, id)).collect();
-    keys.select_nth_unstable(k - 1);
-    for (at, key) in keys[..k].iter().enumerate() {
-        candidates.distances[at] = distance_of(*key);
-        candidates.ids[at] = id_of(*key);
-    }
-    candidates.len = k;
-    keys[k - 1]
+fn last_at(candidates: &Candidates, distance: f32, ids: &[u32]) -> u32 {
+    let at = candidates.iter().filter(|candidate| candidate.0 == distance).map(|candidate| candidate.1);
+    at.max_by_key(|&place| ids[place as usize]).unwrap_or(0)
 }
