@@ -1,7 +1,7 @@
 //! The path of one gather ray: through mirrors and glass to a surface that spreads light, and a bounce further where it
 //! is too short.
 
-use super::direct::direct_light;
+use super::direct::{Techniques, direct_light};
 use super::gather_options::GatherOptions;
 use super::lights::Lights;
 use super::ray_counts::RayCounts;
@@ -31,6 +31,15 @@ pub(super) struct End {
     length: f32,
 }
 
+/// How lamps count that a gather ray meets.
+#[derive(Clone, Copy)]
+struct Lamps {
+    /// Met at once: shadow rays look for them too.
+    direct: Techniques,
+    /// Met in a mirror or through glass, where only gather rays find them: do they count?
+    behind_specular: bool,
+}
+
 /// The random numbers of one gather ray: light at a short end has its own, so that asking for it changes no query.
 pub(super) struct PathRandom {
     pub(super) path: Random,
@@ -42,17 +51,19 @@ impl<'a> GatherPaths<'a> {
         Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), options }
     }
 
-    /// Casts one gather ray of this weight from a point, and one bounce further if it is too short.
+    /// Casts one gather ray of this weight from a point, and one bounce further if it is too short. A lamp met counts by its
+    /// share among the techniques.
     pub(super) fn cast(
         &self,
         from: &SurfacePoint,
-        direction: Vec3,
+        (direction, techniques): (Vec3, Techniques),
         weight: Vec3,
         random: &mut PathRandom,
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) -> Option<End> {
-        let end = self.follow(from, direction, weight, self.options.caustics, light, &mut random.path)?;
+        let lamps = Lamps { direct: techniques, behind_specular: self.options.caustics };
+        let end = self.follow(from, direction, weight, lamps, light, &mut random.path)?;
         if end.length >= self.options.min_gather_dist {
             return Some(end);
         }
@@ -68,23 +79,24 @@ impl<'a> GatherPaths<'a> {
     fn continued(&self, end: &End, light: &mut impl FnMut(Vec3), random: &mut PathRandom) -> Option<End> {
         let PathRandom { path: random, light_at_short_end } = random;
         let reflection = Reflection::new(self.surfaces.material(&end.point), end.point.facing, end.view);
+        let techniques = Techniques { shadow: 1, gather: u32::from(!reflection.has_lobe()) };
         if self.options.direct {
             let Self { surfaces, lights, .. } = self;
-            light(end.weight * direct_light(surfaces, lights, &end.point, &reflection, 1, light_at_short_end));
+            light(end.weight * direct_light(surfaces, lights, &end.point, &reflection, techniques, light_at_short_end));
         }
         let (u, v) = (random.unit(), random.unit());
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
-        self.follow(&end.point, direction, end.weight * weight, true, light, random)
+        let lamps = Lamps { direct: techniques, behind_specular: true };
+        self.follow(&end.point, direction, end.weight * weight, lamps, light, random)
     }
 
     /// Follows a gather ray through mirrors and glass to the surface where it ends, one that spreads light.
-    /// Lamps met on the way count if `lamps` is true.
     fn follow(
         &self,
         start: &SurfacePoint,
         mut direction: Vec3,
         mut weight: Vec3,
-        lamps: bool,
+        lamps: Lamps,
         light: &mut impl FnMut(Vec3),
         random: &mut Random,
     ) -> Option<End> {
@@ -93,9 +105,14 @@ impl<'a> GatherPaths<'a> {
             let point = self.surfaces.hit(from.start(direction), direction)?;
             length += point.position.distance(from.position);
             let material = self.surfaces.material(&point);
-            // A light met directly is counted by the shadow rays; met in a mirror or through glass, only here.
-            if hits > 0 && lamps && self.options.direct && material.emits() && point.facing == point.front {
-                light(weight * Vec3::from(material.emission));
+            if self.options.direct && material.emits() && point.facing == point.front {
+                let share = if hits == 0 {
+                    let density = self.lights.density(start.position, &point);
+                    lamps.direct.share_of_gather_ray(direction.dot(start.facing), density)
+                } else {
+                    f32::from(lamps.behind_specular)
+                };
+                light(weight * Vec3::from(material.emission) * share);
             }
             let (diffuse, lobe) = spread_shares(material);
             let spread = diffuse.max_element() + lobe.max_element();

@@ -2,7 +2,7 @@
 //!
 //! Steinhurst, Coombe, Lastra, *Reordering for Cache Conscious Photon Mapping*, GI 2005, Fig. 3 and Fig. 5.
 
-use super::direct::direct_light;
+use super::direct::{Techniques, direct_light};
 use super::eye::{Eye, VisiblePoint};
 use super::gather_options::GatherOptions;
 use super::gather_path::{GatherPaths, PathRandom};
@@ -81,15 +81,29 @@ impl<'a> GatherRays<'a> {
         (points, eye_rays)
     }
 
-    /// Light that comes to a point seen straight from the lamps.
-    pub(super) fn direct_light(&self, pixel: u32, visible: &VisiblePoint, light: &mut impl FnMut(Vec3)) {
-        let GatherOptions { light_samples, seed, direct, .. } = self.options;
+    /// Which rays look for the lamps at a point of this reflection, from which gather rays are cast.
+    fn techniques(&self, reflection: &Reflection) -> Techniques {
+        let GatherOptions { light_samples, gathers, .. } = self.options;
+        Techniques { shadow: light_samples, gather: if reflection.has_lobe() { 0 } else { gathers } }
+    }
+
+    /// Light that comes to a point seen straight from the lamps: all of it, or what its gather rays leave over.
+    pub(super) fn direct_light(
+        &self,
+        pixel: u32,
+        visible: &VisiblePoint,
+        gathered: bool,
+        light: &mut impl FnMut(Vec3),
+    ) {
+        let GatherOptions { seed, direct, .. } = self.options;
         if direct {
             let reflection = Reflection::new(self.material(visible), visible.point.facing, visible.view);
             let key = [seed, Purpose::DirectLight as u64, u64::from(pixel), u64::from(visible.number)];
             let random = &mut Random::new(&key);
             let GatherPaths { lights, surfaces, .. } = &self.paths;
-            light(visible.share * direct_light(surfaces, lights, &visible.point, &reflection, light_samples, random));
+            let mut techniques = self.techniques(&reflection);
+            techniques.gather *= u32::from(gathered);
+            light(visible.share * direct_light(surfaces, lights, &visible.point, &reflection, techniques, random));
         }
     }
 
@@ -122,6 +136,7 @@ impl<'a> GatherRays<'a> {
         let GatherOptions { gathers, seed, spread, .. } = self.options;
         let (point, number) = (&visible.point, visible.number);
         let reflection = Reflection::new(self.material(visible), point.facing, visible.view);
+        let techniques = self.techniques(&reflection);
         let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
         // Each point has the first stratum once, whatever the order and the bins.
         counts.guided += u64::from(guide.is_some() && strata.contains(&0));
@@ -138,7 +153,7 @@ impl<'a> GatherRays<'a> {
             let chosen = reflection.sample(spread, guide.as_ref(), u, v, &mut random.path);
             let end = chosen.and_then(|(direction, weight)| {
                 let weight = visible.share * weight / gathers as f32;
-                self.paths.cast(point, direction, weight, &mut random, light, counts)
+                self.paths.cast(point, (direction, techniques), weight, &mut random, light, counts)
             });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),

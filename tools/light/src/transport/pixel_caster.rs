@@ -109,10 +109,11 @@ impl<'a> PixelCaster<'a> {
             counts.seen += u64::from(bin == 0);
             match cast.options.method {
                 Method::FinalGather => {
+                    let cached = cache.is_some() && may_be_cached(cast.material(visible));
                     if bin == 0 {
-                        cast.direct_light(pixel, visible, &mut light);
+                        cast.direct_light(pixel, visible, !cached, &mut light);
                     }
-                    if cache.is_some() && may_be_cached(cast.material(visible)) {
+                    if cached {
                         continue;
                     }
                     let wanted = take(rays, cast.strata.of_bin(bin).len());

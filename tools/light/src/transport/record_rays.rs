@@ -1,5 +1,6 @@
 //! Gather rays from a point whose irradiance is cached, one through each stratum, whoever sees it.
 
+use super::direct::Techniques;
 use super::gather_path::{End, PathRandom};
 use super::gather_rays::GatherRays;
 use super::purpose::Purpose;
@@ -34,7 +35,9 @@ impl RecordRays<'_> {
         let id = RECORDS | u64::from(self.id);
         let key = [self.rays.options.seed, Purpose::LightAtShortEnd as u64, id, stratum.into()];
         let mut random = PathRandom { path, light_at_short_end: Random::new(&key) };
-        self.rays.paths.cast(self.point, direction, Vec3::ONE, &mut random, light, counts)
+        // Its irradiance is that from surfaces alone: each point seen adds its own light from the lamps.
+        let techniques = Techniques { shadow: 0, gather: 0 };
+        self.rays.paths.cast(self.point, (direction, techniques), Vec3::ONE, &mut random, light, counts)
     }
 
     /// The direction of a ray within its stratum, and the random numbers for what follows.
