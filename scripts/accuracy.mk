@@ -18,8 +18,10 @@ FURNACES := $(foreach k,10 30 100,furnace-direct-$k furnace-gather-$k sphere-dir
     $(foreach scene,grey mm far,$(scene)-direct-100 $(scene)-gather-100)
 BOXES := box box-plain box-mm box-far
 BATCHES := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16
-PICTURES := $(FURNACES) $(BOXES) cached full gap
-EXPERIMENTS := $(PICTURES) flux edges cached-searches full-searches powers-made powers-read
+SEEDS := 1 2 3 4
+RECIPES := recipe-box gap $(SEEDS:%=recipe-spheres-%)
+PICTURES := $(FURNACES) $(BOXES) cached full recipe-box gap
+EXPERIMENTS := $(PICTURES) recipe-spheres flux edges cached-searches full-searches powers-made powers-read
 
 accuracy: $(EXPERIMENTS:%=$(ACCURACY)/%.csv) $(ACCURACY)/report.html ## Is the light right, and what does it cost? Furnaces, path tracers' rooms, recipes: ten minutes
 	@$(BIN)/pm-sweep derive accuracy $(KNOWN) $(filter %.csv,$^)
@@ -115,9 +117,21 @@ $(ACCURACY)/powers-made.csv: $(ACCURACY)/powers.csv
 $(ACCURACY)/powers-read.csv: $(ACCURACY)/powers.csv $(call made_with,PROGRAMS)
 	$(LAUNCH) sh -c '$(BIN)/pm-view -q --import photons $< | $(BIN)/pm-view --records | $(BIN)/pm-sweep derive mean -' > $@
 
-# A room lit through a gap, by the recipe of pm-picture: few photons come through, so there are more of them.
-$(ACCURACY)/gap.exr: out/scenes/gap.obj $(call made_with,PROGRAMS) | $(ACCURACY)
-	$(LAUNCH) $(BIN)/pm-picture -q $< --size 64x64 -n 4000000 -t $(THREADS) --image $@
+# The recipe of pm-picture as it is, with four seeds where rectangles are small, and in a room lit through a gap: few photons
+# come through, so there are more of them.
+SCENE_recipe-box := scenes/cornell-diffuse.obj
+SCENE_recipe-spheres := scenes/cornell.obj
+SCENE_gap := out/scenes/gap.obj
+of_recipe = $(if $(findstring spheres,$*),recipe-spheres,$*)
+$(RECIPES:%=$(ACCURACY)/%.exr): $(ACCURACY)/%.exr: $$(SCENE_$$(of_recipe)) $(call made_with,PROGRAMS) | $(ACCURACY)
+	$(LAUNCH) $(BIN)/pm-picture -q $< $(if $(filter gap,$*),--size 64x64 -n 4000000,--size 128x128) \
+	    $(if $(findstring spheres,$*),--seed $(lastword $(words))) -t $(THREADS) --image $@
+
+$(SEEDS:%=$(ACCURACY)/recipe-spheres-%.csv): %.csv: %.exr
+	$(LAUNCH) $(BIN)/pm-view $< $(call regions,recipe-spheres) --format csv -o $@
+
+$(ACCURACY)/recipe-spheres.csv: $(SEEDS:%=$(ACCURACY)/recipe-spheres-%.csv)
+	$(BIN)/pm-sweep derive batches $(filter %.csv,$^) -o $@
 
 # Error against processor time: recipes in five rooms, and with MITSUBA=PYTHON a path tracer beside them.
 MITSUBA ?=

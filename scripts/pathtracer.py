@@ -22,6 +22,7 @@ def options():
     parser.add_argument("-o", "--output", required=True, metavar="FILE.exr")
     parser.add_argument("--se", metavar="FILE.exr", help="standard error of each pixel, from the passes")
     parser.add_argument("--size", type=int, default=128, metavar="PIXELS", help="across and down")
+    parser.add_argument("--crop", metavar="X0,Y0,X1,Y1", help="these pixels alone")
     parser.add_argument("--samples", type=int, default=16, help="samples per pixel of a pass")
     parser.add_argument("--passes", type=int, default=4)
     parser.add_argument("--seconds", type=float, help="as many passes as fit into so much processor time, instead")
@@ -95,7 +96,7 @@ def bsdf(material):
     return {"type": "twosided", "nested": inner}
 
 
-def load(mi, np, path, size, folder):
+def load(mi, np, path, size, crop, folder):
     points, normals, materials, faces = read_obj(path)
     points, normals = np.array(points, np.float32), np.array(normals, np.float32).reshape(-1, 3)
     with open(os.path.splitext(path)[0] + ".camera.toml", "rb") as file:
@@ -106,7 +107,8 @@ def load(mi, np, path, size, folder):
         "sensor": {
             "type": "perspective", "fov": camera["vfov"], "fov_axis": "y",
             "to_world": mi.ScalarTransform4f().look_at(camera["eye"], camera["look_at"], camera["up"]),
-            "film": {"type": "hdrfilm", "width": size, "height": size, "pixel_format": "rgb",
+            "film": {"type": "hdrfilm", "width": size, "height": size, "crop_offset_x": crop[0],
+                     "crop_offset_y": crop[1], "crop_width": crop[2] - crop[0], "crop_height": crop[3] - crop[1], "pixel_format": "rgb",
                      "component_format": "float32", "rfilter": {"type": "box"}},
             "sampler": {"type": "independent", "sample_count": 16},
         },
@@ -139,7 +141,8 @@ def main():
     mi.set_variant(asked.variant)
     drjit.set_thread_count(asked.threads)
     with tempfile.TemporaryDirectory() as folder:
-        scene = load(mi, np, asked.scene, asked.size, folder)
+        crop = [int(at) for at in asked.crop.split(",")] if asked.crop else [0, 0, asked.size, asked.size]
+        scene = load(mi, np, asked.scene, asked.size, crop, folder)
         render = lambda seed: np.array(mi.render(scene, spp=asked.samples, seed=seed), np.float64)
         render(2**31)  # compiles
         total, squares, passes, start = 0.0, 0.0, 0, time.process_time()
