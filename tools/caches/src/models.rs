@@ -32,6 +32,11 @@ pub trait CacheModel {
     /// What came of it, for each cache of the model in the order it was built with.
     fn finish(self: Box<Self>) -> Vec<LineCounts>;
 
+    /// Whether it tells [`Misses::write_back`] of each dirty line that leaves.
+    fn tells_write_backs(&self) -> bool {
+        false
+    }
+
     /// Whether an access that repeats the one before (same line, same region, same kind) makes a difference. Where it makes
     /// none for any model of a line size such accesses are left out of the chunks, all but some.
     fn repeats_matter(&self) -> bool {

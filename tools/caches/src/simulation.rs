@@ -26,6 +26,7 @@ use crate::misses::{Banks, PageSwitches};
 use crate::{CacheConfig, CacheCounts, Measures, RecordCounts};
 use error::check_regions;
 use line_group::LineGroup;
+pub(crate) use line_group::Moved;
 
 /// Runs caches over a trace that is replayed into it.
 ///
@@ -215,8 +216,8 @@ impl Simulation {
         self.groups.iter_mut().for_each(LineGroup::keep_fetched);
     }
 
-    /// Simulates what is waiting and moves region and line number of each fetch to `fetched`.
-    pub(crate) fn take_fetched(&mut self, fetched: &mut Vec<(u16, u64)>) {
+    /// Simulates what is waiting and moves what was fetched and, if it is measured, written back to `fetched`.
+    pub(crate) fn take_fetched(&mut self, fetched: &mut Vec<Moved>) {
         self.flush();
         let kept = self.groups.iter_mut().filter_map(|group| group.fetched.as_mut());
         kept.for_each(|kept| fetched.append(kept));

@@ -20,6 +20,8 @@ pub struct Measures {
     pub dram: Option<Dram>,
     /// Count misses that the fully associative LRU twin misses too, to tell capacity from conflict miss by miss; with `split`.
     pub miss_by_miss: bool,
+    /// Tell when the first cache writes lines back: for a stream of its misses.
+    pub write_backs: bool,
     /// Count the distinct lines of searches and batches.
     pub working_sets: bool,
     /// Count the traffic of results.

@@ -3,14 +3,15 @@
 //! Each line that the cache fetches is a read of the whole line, in the search that missed; searches without a miss stay,
 //! with their destinations, and so do batches and the warm-up flag. A region keeps its name and base; its records are now
 //! lines, and its size is rounded up to whole ones (in lines longer than the 4 KiB that keep regions apart it is not, and
-//! a read is cut where the region ends). Write-backs do not appear: the simulation knows how many there are, not when a
-//! line leaves.
+//! a read is cut where the region ends). Dirty lines that leave are writes, before the read that they make room for, if they
+//! are asked for ([`Measures::write_backs`]); those that are there at the end have not left.
 
 use std::io::Write;
 
-use pm_formats::trace::{Access, BlockEncoder, Coding, REGION_ALIGNMENT, Region, TraceSink, TraceWriter};
+use pm_formats::trace::{Access, AccessKind, BlockEncoder, Coding, REGION_ALIGNMENT, Region, TraceSink, TraceWriter};
 use pm_formats::{BlockMeta, Header, StageReport};
 
+use crate::simulation::Moved;
 use crate::{CacheConfig, CacheCounts, Findings, Measures, Simulation, SimulationError};
 
 /// Simulates one cache and writes what it fetches.
@@ -21,7 +22,7 @@ pub struct MissStream<W> {
     writer: TraceWriter<W>,
     /// Destinations of the searches of the block in hand, and for each search the ends of its part of both lists.
     destinations: Vec<u32>,
-    fetched: Vec<(u16, u64)>,
+    fetched: Vec<Moved>,
     searches: Vec<(usize, usize)>,
 }
 
@@ -64,15 +65,16 @@ impl<W: Write> MissStream<W> {
         })
     }
 
-    /// The read that fetches a line, cut to its region.
-    fn read(&self, (region, line): (u16, u64)) -> Access {
+    /// The read that fetches a line, or the write of one that leaves, cut to its region.
+    fn access_of(&self, Moved { region, line, written }: Moved) -> Access {
         let region_of = &self.regions[usize::from(region)];
         let base = region_of.base;
         let end = if region_of.is_addresses() { u64::MAX } else { base + (region_of.size - 1) };
         let first = (line * self.line_bytes).max(base);
         let last = (line * self.line_bytes + (self.line_bytes - 1)).min(end);
         // A line of 2 GiB still fits.
-        Access::read(region, first - base, (last - first + 1) as u32)
+        let read = Access::read(region, first - base, (last - first + 1) as u32);
+        if written { Access { kind: AccessKind::Write, ..read } } else { read }
     }
 
     /// Whether all went well so far: [`Simulation::check`].
@@ -96,7 +98,7 @@ impl<W: Write> MissStream<W> {
             let from = read;
             while let Some(&(destinations, reads)) = searches.next_if(|_| read - from < BLOCK_READS) {
                 encoder.begin(&self.destinations[destination..destinations]);
-                self.fetched[read..reads].iter().for_each(|&fetch| encoder.access(self.read(fetch)));
+                self.fetched[read..reads].iter().for_each(|&fetch| encoder.access(self.access_of(fetch)));
                 encoder.end();
                 (destination, read) = (destinations, reads);
             }

@@ -30,6 +30,8 @@ impl Lookup {
 #[derive(Clone, Copy, Default)]
 struct Frame {
     slot: u32,
+    /// The region it was last written in, if it is dirty.
+    region: u16,
     dirty: bool,
 }
 
@@ -75,9 +77,9 @@ impl<R: Replacement> SetAssociative<R> {
         }
     }
 
-    /// Brings `slot` into its set and returns its frame, clean.
+    /// Brings `slot` into its set and returns its frame, clean, and what was in it.
     #[inline]
-    fn fetch(&mut self, slot: u32, set: usize) -> usize {
+    fn fetch(&mut self, slot: u32, set: usize) -> (usize, Frame) {
         let filled = self.filled[set] as usize;
         let full = filled == self.ways;
         let way = if full { self.replacement.victim(set) } else { filled };
@@ -90,10 +92,10 @@ impl<R: Replacement> SetAssociative<R> {
                 self.frames.push(Frame::default());
             }
         }
-        self.frames[frame] = Frame { slot, dirty: false };
+        let before = std::mem::replace(&mut self.frames[frame], Frame { slot, ..Frame::default() });
         self.places[slot as usize] = Lookup::in_frame(frame);
         self.replacement.fill(set, way);
-        frame
+        (frame, before)
     }
 }
 
@@ -111,17 +113,26 @@ impl<R: Replacement> CacheModel for SetAssociative<R> {
                 let region = attributes.region();
                 self.counts.fetches[region] += u64::from(counted);
                 self.counts.compulsory += u64::from(counted && before == Lookup::NEVER);
-                self.fetch(slot, self.sets.of(space.line(region, slot)))
+                let (frame, before) = self.fetch(slot, self.sets.of(space.line(region, slot)));
+                if before.dirty {
+                    misses.write_back(i, before.region.into(), before.slot);
+                }
+                frame
             };
             if counted && attributes.writes() {
-                let dirty = std::mem::replace(&mut self.frames[frame].dirty, true);
-                self.counts.write_backs += u64::from(!dirty);
+                let frame = &mut self.frames[frame];
+                frame.region = attributes.region() as u16;
+                self.counts.write_backs += u64::from(!std::mem::replace(&mut frame.dirty, true));
             }
         }
     }
 
     fn finish(self: Box<Self>) -> Vec<LineCounts> {
         vec![self.counts]
+    }
+
+    fn tells_write_backs(&self) -> bool {
+        true
     }
 
     fn repeats_matter(&self) -> bool {

@@ -18,10 +18,17 @@ pm_registry::registered! {
 
 impl Policy for Lru {
     fn model(&self, cache: &CacheOnTrace) -> Box<dyn CacheModel> {
-        let (sets, ways) = (cache.sets(), cache.ways());
-        match sets {
+        match cache.sets() {
             // A single set is fully associative, whatever it is called.
             1 => Box::new(LruStack::new(cache.space(), cache.regions(), &[cache.config().lines()])),
+            _ => self.model_with_write_backs(cache),
+        }
+    }
+
+    /// The stack knows how many lines left dirty, but not when.
+    fn model_with_write_backs(&self, cache: &CacheOnTrace) -> Box<dyn CacheModel> {
+        let (sets, ways) = (cache.sets(), cache.ways());
+        match ways {
             _ if ways <= LruOrder::WAYS => cache.replacing(LruOrder::new(sets, ways)),
             _ => cache.replacing(LruTimes::new(sets, ways)),
         }

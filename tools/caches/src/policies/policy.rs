@@ -14,6 +14,11 @@ pub trait Policy: Registered + Sync {
     /// The model of a cache under this policy; `cache.config().seed()` names its random numbers, if it draws any.
     fn model(&self, cache: &CacheOnTrace) -> Box<dyn CacheModel>;
 
+    /// The model of a cache of which is asked when dirty lines leave. Where it cannot tell, that is refused.
+    fn model_with_write_backs(&self, cache: &CacheOnTrace) -> Box<dyn CacheModel> {
+        self.model(cache)
+    }
+
     /// The models of all caches of one line size that are under this policy: one each, or fewer that answer for several.
     fn models(&self, caches: &[CacheOnTrace]) -> Vec<Modelled> {
         caches.iter().enumerate().map(|(i, cache)| Modelled::one(i, self.model(cache))).collect()

@@ -35,6 +35,9 @@ pub enum SimulationError {
         "{0} has too many lines: at most {MAX_FRAMES} in sets, with ways rounded up to a power of two; full has no limit"
     )]
     TooManyFrames(CacheConfig),
+    /// A cache of whose lines is not known when they leave.
+    #[error("{0}: its policy does not tell when a line leaves; lru, fifo and the others of sets and ways do")]
+    NoWriteBacks(CacheConfig),
     /// A curve of lines that will not do.
     #[error(transparent)]
     Line(#[from] ConfigError),

@@ -7,7 +7,7 @@ use crate::curves::{CurveCollector, Shards};
 use crate::findings::{SearchStart, WorkingSetCounter};
 use crate::lines::{Accesses, LineChunk, LineSpace, PAGE_SHIFT, Repeats, Resume};
 use crate::misses::{Banks, Misses, PageSwitches};
-use crate::models::{CacheModel, CacheOnTrace};
+use crate::models::{Answer, CacheModel, CacheOnTrace, Modelled};
 use crate::{CacheConfig, Measures, Policy, SimulationError};
 
 /// The line accesses of one line size and the caches they run through.
@@ -26,7 +26,16 @@ pub(super) struct LineGroup {
     pub(super) shards: Option<Shards>,
     pub(super) working_sets: Option<WorkingSetCounter>,
     /// Region and line number of each fetch of the first of all caches, if somebody collects them.
-    pub(super) fetched: Option<Vec<(u16, u64)>>,
+    pub(super) fetched: Option<Vec<Moved>>,
+    write_backs: bool,
+}
+
+/// A line that the first of all caches fetches, or writes back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Moved {
+    pub(crate) region: u16,
+    pub(crate) line: u64,
+    pub(crate) written: bool,
 }
 
 /// A model, and the caches that it answers for.
@@ -82,6 +91,7 @@ impl LineGroup {
             shards: measures.sampled.filter(|_| curve).map(|rate| Shards::new(&space, rate)),
             working_sets: measures.working_sets.then(|| WorkingSetCounter::new(slots)),
             fetched: None,
+            write_backs: measures.write_backs,
             page_shift,
             space,
         })
@@ -111,7 +121,14 @@ impl LineGroup {
                 if let Some(twins) = &mut self.twins {
                     twins.note(at, &self.misses);
                 }
-                follow(&self.space, &self.chunk, &self.misses, caches, self.fetched.as_mut(), counted);
+                follow(
+                    &self.space,
+                    &self.chunk,
+                    &self.misses,
+                    caches,
+                    self.fetched.as_mut(),
+                    (counted, self.write_backs),
+                );
             }
             if let Some(twins) = &mut self.twins
                 && counted
@@ -149,7 +166,23 @@ fn models(
         let caches = members.iter().map(|&member| CacheOnTrace::new(configs[member], space, regions));
         let caches = caches.collect::<Result<Vec<_>, _>>()?;
         let mut unanswered: Vec<usize> = (0..caches.len()).collect();
-        for modelled in policy.models(&caches) {
+        // Of the first of all caches may be asked what others need not tell.
+        let first = members.iter().position(|&member| member == 0).filter(|_| measures.write_backs);
+        let mut modelled = vec![];
+        if let Some(first) = first {
+            let model = policy.model_with_write_backs(&caches[first]);
+            if !model.tells_write_backs() {
+                return Err(SimulationError::NoWriteBacks(configs[0]));
+            }
+            modelled.push(Modelled::one(first, model));
+        }
+        let others: Vec<usize> = (0..caches.len()).filter(|&cache| Some(cache) != first).collect();
+        let caches_of_others: Vec<CacheOnTrace> = others.iter().map(|&other| caches[other]).collect();
+        for of_others in if others.is_empty() { vec![] } else { policy.models(&caches_of_others) } {
+            let answers = of_others.answers.iter().map(|answer| Answer { cache: others[answer.cache], ..*answer });
+            modelled.push(Modelled { answers: answers.collect(), model: of_others.model });
+        }
+        for modelled in modelled {
             let of_model = modelled.answers.into_iter().map(|answer| {
                 unanswered.retain(|&cache| cache != answer.cache);
                 let pages = measures.page_bytes.map(PageSwitches::new);
@@ -170,10 +203,11 @@ fn follow(
     chunk: &LineChunk,
     misses: &Misses,
     caches: &mut [CacheOfModel],
-    mut fetched: Option<&mut Vec<(u16, u64)>>,
-    counted: bool,
+    mut fetched: Option<&mut Vec<Moved>>,
+    (counted, write_backs): (bool, bool),
 ) {
     let line_bytes = u64::from(space.line_bytes());
+    let mut written_back = misses.written_back().iter().filter(|_| write_backs).peekable();
     for miss in misses.list() {
         let region = chunk.attributes(miss.index as usize).region();
         let line = space.line(region, chunk.slots()[miss.index as usize]);
@@ -194,7 +228,12 @@ fn follow(
         if let Some(fetched) = &mut fetched
             && by_first
         {
-            fetched.push((region as u16, line));
+            // A line leaves before another takes its place.
+            while let Some(back) = written_back.next_if(|back| back.index == miss.index) {
+                let line = space.line(back.region.into(), back.slot);
+                fetched.push(Moved { region: back.region, line, written: true });
+            }
+            fetched.push(Moved { region: region as u16, line, written: false });
         }
     }
 }

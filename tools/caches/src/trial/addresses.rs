@@ -7,7 +7,7 @@ use pm_registry::Registry;
 
 use super::caches::{of_caches, random_cache};
 use super::definition::line_accesses;
-use super::naive::{Cost, naive};
+use super::naive::{Cost, fetches, naive};
 use super::{Draw, Event, replay};
 use crate::{Measures, Policy, Simulation};
 
@@ -75,10 +75,10 @@ pub fn addresses_may_lie_anywhere(policies: &Registry<dyn Policy>) {
             simulation.take_fetched(&mut fetched);
             let counts = &simulation.finish()[0];
             let accesses = line_accesses(&regions, config.line_bytes(), &events);
-            let (expected, misses) = naive(config, 1, &accesses);
+            let (expected, moves) = naive(config, 1, &accesses);
             let what = format!("case {case}, {config}, chunk {chunk}: left: model, right: definition");
             assert_eq!(Cost::of(counts), expected, "{what}");
-            assert_eq!(fetched, misses, "{what}");
+            assert_eq!(fetched, fetches(moves), "{what}");
             assert_eq!(counts.blocks, (pages(&events) * 4096).div_ceil(config.line_bytes().into()), "{what}");
         }
     }

@@ -7,7 +7,8 @@ use pm_registry::Registry;
 use super::caches::{of_caches, random_cache};
 use super::definition::{FullSet, HeldLine, LineAccess, line_accesses, set_of};
 use super::{Draw, random_events, random_regions, replay, simulate};
-use crate::{CacheConfig, CacheCounts, Measures, Policy, Simulation, Ways};
+use crate::simulation::Moved;
+use crate::{CacheConfig, CacheCounts, Measures, Policy, Simulation, SimulationError, Ways};
 
 /// What a cache costs: fetches by region, compulsory fetches, write-backs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,8 +30,9 @@ impl Cost {
     }
 }
 
-/// A cache by its policy's definition: what it costs, and region and line of each fetch in order, those of the warm-up too.
-pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]) -> (Cost, Vec<(u16, u64)>) {
+/// A cache by its policy's definition: what it costs, and each line fetched or, before it, written back in order, those of the
+/// warm-up too. Of a line written back no region is told.
+pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]) -> (Cost, Vec<Moved>) {
     let sets = config.sets();
     let ways = config.lines() / sets;
     let policy = config.policy();
@@ -38,7 +40,7 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
     let mut cache: BTreeMap<u64, Vec<HeldLine>> = BTreeMap::new();
     let mut touched = BTreeSet::new();
     let mut cost = Cost { fetches: vec![0; regions], ..Cost::default() };
-    let mut misses = vec![];
+    let mut moves = vec![];
     // The line at hand, if it passes the cache by, and whether it is dirty.
     let mut passing: Option<(u64, bool)> = None;
     for (now, &LineAccess { line, writes, counted, region }) in accesses.iter().enumerate() {
@@ -57,18 +59,25 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
             held[way].uses.push(now);
             way
         } else {
-            misses.push((region as u16, line));
+            let fetch = Moved { region: region as u16, line, written: false };
             cost.fetches[region] += u64::from(counted);
             cost.compulsory += u64::from(counted && first);
             let new = HeldLine { line, dirty: false, uses: vec![now] };
             if (held.len() as u64) < ways {
                 held.push(new);
+                moves.push(fetch);
                 held.len() - 1
             } else if let Some(victim) = definition.victim(&FullSet { set, held, accesses, now }) {
-                cost.write_backs += u64::from(held[victim].dirty);
+                let before = &held[victim];
+                if before.dirty {
+                    cost.write_backs += 1;
+                    moves.push(Moved { region: 0, line: before.line, written: true });
+                }
+                moves.push(fetch);
                 held[victim] = new;
                 victim
             } else {
+                moves.push(fetch);
                 passing = Some((line, writes && counted));
                 continue;
             }
@@ -78,7 +87,7 @@ pub(super) fn naive(config: CacheConfig, regions: usize, accesses: &[LineAccess]
     }
     let left = cache.values().flatten().filter(|held| held.dirty).count();
     cost.write_backs += left as u64 + u64::from(passing.is_some_and(|(_, dirty)| dirty));
-    (cost, misses)
+    (cost, moves)
 }
 
 /// Fetches by region, compulsory fetches and write-backs of random caches on random traces are those of the policy's
@@ -109,13 +118,18 @@ pub fn counts_are_those_of_the_definition(policies: &Registry<dyn Policy>) {
     }
 }
 
-/// A model tells of each miss when it happens, in order.
+/// The moves that are fetches.
+pub(super) fn fetches(moves: Vec<Moved>) -> Vec<Moved> {
+    moves.into_iter().filter(|moved| !moved.written).collect()
+}
+
+/// A model tells of each miss when it happens, in order, and of each dirty line that leaves if it can tell that.
 ///
 /// # Panics
 /// If it does not.
 pub fn fetches_are_told_as_they_happen(policies: &Registry<dyn Policy>) {
     let mut draw = Draw::new(16);
-    let mut told = 0;
+    let (mut told, mut written_back) = (0, 0);
     for case in 0..400 {
         let regions = random_regions(&mut draw);
         let events = random_events(&mut draw, &regions);
@@ -125,17 +139,30 @@ pub fn fetches_are_told_as_they_happen(policies: &Registry<dyn Policy>) {
             let beside = CacheConfig::lru(8 * u64::from(config.line_bytes()), Ways::Full, config.line_bytes());
             let configs = [config, beside.expect("eight lines")];
             let chunk = draw.pick(&[1, 2, 5, 60, 2048]);
-            let simulation = Simulation::in_chunks(&regions, &configs, &Measures::default(), chunk);
-            let mut simulation = simulation.expect("small regions");
-            simulation.keep_fetched();
-            replay(&events, &mut simulation);
-            let mut fetched = vec![];
-            simulation.take_fetched(&mut fetched);
+            let moves = |write_backs: bool| {
+                let measures = Measures { write_backs, ..Measures::default() };
+                let mut simulation = Simulation::in_chunks(&regions, &configs, &measures, chunk)?;
+                simulation.keep_fetched();
+                replay(&events, &mut simulation);
+                let mut moves = vec![];
+                simulation.take_fetched(&mut moves);
+                Ok::<_, SimulationError>((moves, Cost::of(&simulation.finish()[0])))
+            };
             let accesses = line_accesses(&regions, config.line_bytes(), &events);
-            let (_, expected) = naive(config, regions.len(), &accesses);
-            assert_eq!(fetched, expected, "case {case}, {config}, chunk {chunk}: left: model, right: definition");
+            let (cost, expected) = naive(config, regions.len(), &accesses);
+            let what = format!("case {case}, {config}, chunk {chunk}: left: model, right: definition");
+            match moves(true) {
+                Ok((mut moves, found)) => {
+                    moves.iter_mut().filter(|moved| moved.written).for_each(|moved| moved.region = 0);
+                    assert_eq!((&moves, found), (&expected, cost), "{what}");
+                    written_back += moves.len() - fetches(moves).len();
+                }
+                Err(error) => assert_eq!(error, SimulationError::NoWriteBacks(config)),
+            }
+            let (fetched, _) = moves(false).expect("small regions");
             told += fetched.len();
+            assert_eq!(fetched, fetches(expected), "{what}");
         }
     }
-    assert!(told > 100_000, "{told} fetches are no test");
+    assert!(told > 100_000 && written_back > 10_000, "{told} fetches, {written_back} lines written back are no test");
 }

@@ -52,6 +52,10 @@ pub struct Args {
     /// Write what the one --cache fetches as a trace, for a further cache; `-` is standard output, then no table
     #[arg(long, value_name = "FILE", requires = "cache", conflicts_with_all = ["curve", "shards", "lanes"])]
     pub(super) misses: Option<PathBuf>,
+    /// With --misses: dirty lines that leave the cache are writes in the stream, before the read that they make room for.
+    /// Those that are still there at the end have not left
+    #[arg(long, requires = "misses", hide_short_help = true)]
+    pub(super) write_backs: bool,
     /// Which lines a record touches that does not lie in one
     #[arg(long, default_value = "both", hide_short_help = true, value_parser = choice::<SpanRule>())]
     pub(super) span: SpanRule,

@@ -79,9 +79,10 @@ pub(super) fn write(
         }
     };
     let written_back = findings.caches[0].bytes_written_back;
-    if written_back > 0 {
-        args.voice
-            .remark(format!("{written_back} bytes that the cache writes back are not in the stream of its misses"));
+    if written_back > 0 && !args.write_backs {
+        args.voice.remark(format!(
+            "{written_back} bytes that the cache writes back are not in the stream of its misses: --write-backs puts them there"
+        ));
     }
     output.commit()?;
     results.add(args, &source, 1, findings)
