@@ -25,6 +25,7 @@ pub(crate) fn measure(
         edges: Edges::Cut,
     };
     let estimate = RadianceEstimate::new(&photons.records, &header.materials, photons.emitted_paths, options);
+    let estimate = estimate.in_order(map.order());
     let scale = estimate.scale(&header.bounds);
     let unit = Film::new(0, scale);
     let cache = CachedIrradiance::new(vec![], vec![], header.pixels(), true).expect("an empty cache");

@@ -31,11 +31,10 @@ impl Film {
     /// A contribution in units of the film, or `None` if it is beyond 2^124 of them or not a number.
     #[inline]
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "checked against 2^124")]
     pub fn quantise(&self, value: [f64; 3]) -> Option<[i128; 3]> {
-        let units = value.map(|x| (x / self.unit).round());
+        let units = value.map(|x| round(x / self.unit));
         // Also false for NaN.
-        units.iter().all(|x| x.abs() < 2f64.powi(124)).then(|| units.map(|x| x as i128))
+        units.iter().all(|x| x.abs() < 2f64.powi(124)).then(|| units.map(whole))
     }
 
     /// Adds a quantised contribution to a pixel.
@@ -57,6 +56,19 @@ impl Film {
     pub fn pixels(&self) -> Vec<[f32; 3]> {
         self.sums.iter().map(|sums| sums.map(|sum| (sum as f64 * self.unit) as f32)).collect()
     }
+}
+
+/// Rounded; beyond 2^52 there is nothing to round.
+#[inline]
+fn round(x: f64) -> f64 {
+    if x.abs() < 2f64.powi(52) { x.round() } else { x }
+}
+
+/// A number without a fraction, below 2^124. Most are shorter than the integers that processors know.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "checked against 2^124")]
+fn whole(x: f64) -> i128 {
+    if x.abs() < 2f64.powi(62) { i128::from(x as i64) } else { x as i128 }
 }
 
 #[cfg(test)]

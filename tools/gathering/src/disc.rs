@@ -67,11 +67,18 @@ impl Disc {
     /// the cuts before it.
     pub(super) fn cut(&mut self, strangers: &[Stranger]) {
         while self.cuts.len() < MOST_CUTS {
-            let nearest = strangers
-                .iter()
-                .filter(|stranger| self.cuts.iter().all(|cut| cut.depth(stranger.offset) > ON_THE_PLANE))
-                .filter_map(|stranger| Some((stranger.rank, self.cut_by(stranger)?)))
-                .min_by(|((a, a_id), _), ((b, b_id), _)| a.total_cmp(b).then(a_id.cmp(b_id)));
+            let mut nearest: Option<((f32, u32), Cut)> = None;
+            for stranger in strangers {
+                let is_nearer = |((distance, id), _): ((f32, u32), Cut)| {
+                    stranger.rank.0.total_cmp(&distance).then(stranger.rank.1.cmp(&id)).is_lt()
+                };
+                if nearest.is_none_or(is_nearer)
+                    && self.cuts.iter().all(|cut| cut.depth(stranger.offset) > ON_THE_PLANE)
+                    && let Some(cut) = self.cut_by(stranger)
+                {
+                    nearest = Some((stranger.rank, cut));
+                }
+            }
             match nearest {
                 Some((_, cut)) => self.cuts.push(cut),
                 None => break,

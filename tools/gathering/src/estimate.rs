@@ -2,39 +2,36 @@
 //!
 //! Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2.
 
+mod placed;
+mod plain;
 mod sum;
 
 use super::disc::{Disc, Slope, Stranger};
-use super::surface::{Surface, coarse, on_same_surface};
+use super::surface::{Surface, on_same_surface};
 use super::{Edges, EstimateOptions, Estimator, Kernel, Outcome};
-use glam::Vec3;
-use pm_formats::{Bounds, Material, Photon, Query};
+use glam::{DVec3, Vec3};
+use placed::{Placed, exponents};
+use pm_formats::{Bounds, Material, Photon, Query, unpack_direction};
 use pm_maps::Nearest;
-
-/// What every sum needs of a photon.
-#[derive(Clone, Copy)]
-struct Flux {
-    /// Flux times the number of emitted paths: mantissas of 8 bits, so exact.
-    power: [f32; 3],
-    /// Surface normal in steps of 1/127.
-    normal: [i8; 3],
-}
+use std::sync::Arc;
 
 /// Estimates radiance from the photons of one map.
 pub struct RadianceEstimate<'a> {
-    flux: Vec<Flux>,
     photons: &'a [Photon],
+    placed: Placed<'a>,
     materials: &'a [Material],
     emitted_paths: f64,
     options: EstimateOptions,
     /// Double-precision sums of k powers are exact, hence the same in any order.
     exact_sums: bool,
+    /// What powers are small multiples of, where that is enough to know.
+    short_unit: Option<f64>,
 }
 
 /// Room for the photons of one query, used again for the next.
 #[derive(Default)]
 pub struct Scratch {
-    /// On the query's own surface: id and squared distance.
+    /// On the query's own surface: place and squared distance.
     own: Vec<(u32, f32)>,
     strangers: Vec<Stranger>,
 }
@@ -49,26 +46,39 @@ impl<'a> RadianceEstimate<'a> {
     pub fn new(photons: &'a [Photon], materials: &'a [Material], emitted_paths: u64, options: EstimateOptions) -> Self {
         // Each power is an 8-bit mantissa times 2^exponent. As long as the exponents span few enough bits, a double's 53
         // hold every partial sum exactly.
-        let exponents = || photons.iter().map(|photon| u32::from(photon.power[3])).filter(|&exponent| exponent > 0);
-        let span = exponents().max().unwrap_or(0) - exponents().min().unwrap_or(0);
-        let exact_sums = span + 8 + usize::BITS - options.k.leading_zeros() <= 53;
-        #[expect(clippy::cast_possible_truncation, reason = "8-bit mantissas")]
-        let flux = |photon: &Photon| Flux { power: photon.power().map(|x| x as f32), normal: coarse(photon.normal()) };
+        let (least, most) = exponents(photons);
+        let exact_sums = u32::from(most - least) + 8 + usize::BITS - options.k.leading_zeros() <= 53;
         #[expect(clippy::cast_precision_loss, reason = "path counts stay below 2^53")]
         let emitted_paths = emitted_paths.max(1) as f64;
-        Self { flux: photons.iter().map(flux).collect(), photons, materials, emitted_paths, options, exact_sums }
+        let placed = Placed::by_id(photons);
+        let mut new = Self { photons, placed, materials, emitted_paths, options, exact_sums, short_unit: None };
+        new.short_unit = new.unit_of_short();
+        new
+    }
+
+    /// The same, faster for a map that has its photons in this order ([`PhotonMap::order`](pm_maps::PhotonMap::order)).
+    #[must_use]
+    pub fn in_order(self, order: Option<&Arc<[u32]>>) -> Self {
+        Self { placed: self.placed.in_order(order), ..self }
     }
 
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
     pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
-        let Lit { surface, area, slope, .. } = match self.area(query.position, query.normal(), found, scratch) {
+        let normal = query.normal();
+        let rim = match self.rim(found) {
             Ok(known) => known,
             Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
             Err(Nothing::NoArea) => return Outcome::NoArea,
         };
         let material = &self.materials[usize::from(query.material)];
-        let reflected = self.reflected(&surface, slope, query, material, &mut scratch.own);
+        let (reflected, area) = match self.plain(&rim, normal, material, found) {
+            Some(known) => known,
+            None => {
+                let Lit { surface, area, slope, .. } = self.area(query.position, normal, &rim, found, scratch);
+                (self.reflected(&surface, slope, query, material, &mut scratch.own), area)
+            }
+        };
         Outcome::Radiance(
             [0, 1, 2]
                 .map(|channel| f64::from(query.weight[channel]) * reflected[channel] / (area * self.emitted_paths)),
@@ -86,8 +96,9 @@ impl<'a> RadianceEstimate<'a> {
         found: &Nearest,
         scratch: &mut Scratch,
     ) -> Option<([f64; 3], f64)> {
-        match self.area(position, normal, found, scratch) {
-            Ok(Lit { surface, area, reach, slope }) => {
+        match self.rim(found) {
+            Ok(rim) => {
+                let Lit { surface, area, reach, slope } = self.area(position, normal, &rim, found, scratch);
                 let flux = self.sum(&surface, slope, None, &mut scratch.own);
                 // Weights by slope may be negative, and so their sum; irradiance is not.
                 Some((flux.map(|flux| flux.max(0.0) / (area * self.emitted_paths)), reach))
@@ -97,26 +108,30 @@ impl<'a> RadianceEstimate<'a> {
         }
     }
 
+    /// The photon that sets the radius, and the squared radius. Where the limit cuts the search short it sets the radius
+    /// itself and all photons count; with no limit, the farthest of the few photons there are does.
+    fn rim(&self, found: &Nearest) -> Result<Rim, Nothing> {
+        let EstimateOptions { max_dist, estimator, .. } = self.options;
+        let (place, radius_squared) = match found.farthest_place() {
+            Some((distance, place)) if found.is_full() || max_dist.is_infinite() => (Some(place), distance),
+            _ => (None, max_dist * max_dist),
+        };
+        if radius_squared.is_nan() || radius_squared <= 0.0 {
+            return Err(if found.is_empty() { Nothing::Dark } else { Nothing::NoArea });
+        }
+        Ok(Rim { place: place.filter(|_| estimator == Estimator::Unbiased), radius_squared: f64::from(radius_squared) })
+    }
+
     /// Leaves in `scratch.own` the photons that count, and says what area they light.
     fn area(
         &self,
         position: [f32; 3],
         normal: [f32; 3],
+        &Rim { place: rim, radius_squared }: &Rim,
         found: &Nearest,
         scratch: &mut Scratch,
-    ) -> Result<Lit, Nothing> {
-        let EstimateOptions { max_dist, estimator, kernel, edges, .. } = self.options;
-        // The photon that sets the radius, and the squared radius. Where the limit cuts the search short it sets the
-        // radius itself and all photons count; with no limit, the farthest of the few photons there are does.
-        let (rim, radius_squared) = match found.farthest() {
-            Some((distance, id)) if found.is_full() || max_dist.is_infinite() => (Some(id), distance),
-            _ => (None, max_dist * max_dist),
-        };
-        let rim = rim.filter(|_| estimator == Estimator::Unbiased);
-        if radius_squared.is_nan() || radius_squared <= 0.0 {
-            return Err(if found.is_empty() { Nothing::Dark } else { Nothing::NoArea });
-        }
-        let radius_squared = f64::from(radius_squared);
+    ) -> Lit {
+        let EstimateOptions { kernel, edges, .. } = self.options;
         let surface = Surface { position: Vec3::from(position).as_dvec3(), normal, radius: radius_squared.sqrt() };
         let whole = || Disc::new(Vec3::from(normal).as_dvec3());
         let mut disc = whole();
@@ -130,7 +145,7 @@ impl<'a> RadianceEstimate<'a> {
                 disc = whole();
             }
             if !disc.is_whole() {
-                scratch.own.retain(|&(id, _)| disc.holds(surface.offset(&self.photons[id as usize])));
+                scratch.own.retain(|&(place, _)| disc.holds(surface.offset(self.placed.position(place))));
             }
             // Light behind a wall does not count, whatever the area.
             if edges == Edges::Ignored {
@@ -138,22 +153,34 @@ impl<'a> RadianceEstimate<'a> {
             }
         }
         let slope = if edges == Edges::Sloped { Slope::of(&disc, kernel) } else { None };
-        Ok(Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface, slope })
+        Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface, slope }
     }
 
-    /// Sorts the photons found into those of the query's surface and strangers; `rim` is not among the former.
+    /// Sorts the photons found into those of the query's surface and strangers; `rim` (a place of the map that found it) is
+    /// not among the former.
     fn sort_out(&self, surface: &Surface, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
         scratch.own.clear();
         scratch.strangers.clear();
-        for (distance, id) in found.iter() {
-            if on_same_surface(self.flux[id as usize].normal, surface.normal) {
-                if Some(id) != rim {
-                    scratch.own.push((id, distance));
+        let known = self.placed.knows(found);
+        // Photons of a plane have one normal, and often are found one after the other.
+        let mut last: Option<(u16, bool, DVec3)> = None;
+        for (distance, place) in found.places() {
+            let is_rim = Some(place) == rim;
+            let place = if known { place } else { self.placed.place(found.id(place)) };
+            let code = self.placed.code(place);
+            let (_, same, normal) = match last {
+                Some(last @ (of, ..)) if of == code => last,
+                _ => {
+                    let same = on_same_surface(self.placed.normal(code), surface.normal);
+                    (code, same, Vec3::from(unpack_direction::<7>(u32::from(code))).as_dvec3())
                 }
-            } else {
-                let photon = &self.photons[id as usize];
-                let normal = Vec3::from(photon.normal()).as_dvec3();
-                scratch.strangers.push(Stranger { rank: (distance, id), offset: surface.offset(photon), normal });
+            };
+            last = Some((code, same, normal));
+            if !same {
+                let rank = (distance, self.placed.id(place));
+                scratch.strangers.push(Stranger { rank, offset: surface.offset(self.placed.position(place)), normal });
+            } else if !is_rim {
+                scratch.own.push((place, distance));
             }
         }
     }
@@ -162,12 +189,20 @@ impl<'a> RadianceEstimate<'a> {
     #[must_use]
     pub fn scale(&self, bounds: &Bounds) -> f64 {
         let mut flux = [0f64; 3];
-        for photon in &self.flux {
-            (0..3).for_each(|channel| flux[channel] += f64::from(photon.power[channel]) / self.emitted_paths);
+        for photon in self.photons {
+            let power = photon.power();
+            (0..3).for_each(|channel| flux[channel] += power[channel] / self.emitted_paths);
         }
         let side = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
         flux.into_iter().fold(0.0, f64::max) / (0..3).map(|axis| side(axis) * side(axis)).sum::<f64>()
     }
+}
+
+/// Where the photons end.
+struct Rim {
+    /// The place, in the map that found it, of the photon that sets the radius and is not summed.
+    place: Option<u32>,
+    radius_squared: f64,
 }
 
 /// What photons light.

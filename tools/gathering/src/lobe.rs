@@ -19,10 +19,15 @@ pub(super) struct Lobe {
 /// Directions are packed: one along the surface may seem to come from below.
 const LEAST_COSINE: f64 = 1e-4;
 
+/// Does a surface of this material have a lobe?
+pub(super) fn is_glossy(material: &Material) -> bool {
+    !material.specular.iter().all(|&share| share <= 0.0)
+}
+
 impl Lobe {
     /// That of a surface seen by a query, if it is glossy.
     pub(super) fn of(material: &Material, query: &Query) -> Option<Self> {
-        if material.specular.iter().all(|&share| share <= 0.0) {
+        if !is_glossy(material) {
             return None;
         }
         let exponent = f64::from(material.exponent);

@@ -1,7 +1,6 @@
 //! Surfaces: the query's own, and which photons lie on it.
 
 use glam::{DVec3, Vec3};
-use pm_formats::Photon;
 
 /// Photons whose surface is turned farther than this from the query's are left out of the sum: they lie round a corner
 /// or on the other side. The cosine of 26 degrees: well beyond the 2 degrees that the packed normal may be off.
@@ -31,7 +30,7 @@ pub(super) struct Surface {
 
 impl Surface {
     /// Where a photon is, from there, in radii.
-    pub(super) fn offset(&self, photon: &Photon) -> DVec3 {
-        (Vec3::from(photon.position).as_dvec3() - self.position) / self.radius
+    pub(super) fn offset(&self, photon: [f32; 3]) -> DVec3 {
+        (Vec3::from(photon).as_dvec3() - self.position) / self.radius
     }
 }

@@ -3,6 +3,7 @@
 use super::{AccessObserver, Nearest, PhotonMap, SearchReads};
 use pm_formats::Number;
 use pm_formats::trace::Region;
+use std::sync::Arc;
 
 /// A [`PhotonMap`] as an object: every map has this face, and behind it is a [`PhotonMap`] again. Its methods are those of
 /// the map; the search has a method for each observer that matters for speed, so that a call costs once a search and not
@@ -18,6 +19,8 @@ pub trait AnyMap: Send + Sync {
     fn padding(&self) -> Option<u32>;
     /// See [`PhotonMap::is_exact`].
     fn is_exact(&self) -> bool;
+    /// See [`PhotonMap::order`].
+    fn order(&self) -> Option<&Arc<[u32]>>;
     /// See [`PhotonMap::narrows`].
     fn narrows(&self) -> bool;
     /// See [`PhotonMap::measures`].
@@ -51,6 +54,10 @@ impl<M: PhotonMap> AnyMap for M {
 
     fn is_exact(&self) -> bool {
         PhotonMap::is_exact(self)
+    }
+
+    fn order(&self) -> Option<&Arc<[u32]>> {
+        PhotonMap::order(self)
     }
 
     fn narrows(&self) -> bool {
@@ -94,6 +101,10 @@ impl PhotonMap for dyn AnyMap + '_ {
 
     fn is_exact(&self) -> bool {
         AnyMap::is_exact(self)
+    }
+
+    fn order(&self) -> Option<&Arc<[u32]>> {
+        AnyMap::order(self)
     }
 
     fn narrows(&self) -> bool {

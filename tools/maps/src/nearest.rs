@@ -177,6 +177,48 @@ impl Nearest {
         self.keys.iter().map(|&key| (distance_of(key), id_of(key))).chain(chosen)
     }
 
+    /// The photons found, in no particular order, as squared distance and place: the number by which the map knows a photon,
+    /// which is its id unless there is an [`order`](Self::order).
+    #[inline]
+    pub fn places(&self) -> impl Iterator<Item = (f32, u32)> {
+        self.keys.iter().map(|&key| (distance_of(key), id_of(key))).chain(self.room.chosen.iter())
+    }
+
+    /// Calls `visit` with the place of each photon found.
+    #[inline(always)]
+    pub fn for_each_place(&self, mut visit: impl FnMut(u32)) {
+        for &key in &self.keys {
+            visit(id_of(key));
+        }
+        for &place in &self.room.chosen.places[..self.room.chosen.len] {
+            visit(place);
+        }
+    }
+
+    /// Ids of the photons by their places, if a map found them that has an order of its own.
+    #[inline]
+    #[must_use]
+    pub fn order(&self) -> Option<&Arc<[u32]>> {
+        self.settled.map(|_| &self.ids)
+    }
+
+    /// The id of the photon in a place of the map that found these.
+    #[inline]
+    #[must_use]
+    pub fn id(&self, place: u32) -> u32 {
+        self.order().map_or(place, |order| order[place as usize])
+    }
+
+    /// Squared distance and place of the farthest photon found.
+    #[inline]
+    #[must_use]
+    pub fn farthest_place(&self) -> Option<(f32, u32)> {
+        match self.settled {
+            Some(farthest) => (!self.is_empty()).then_some(farthest),
+            None => self.farthest(),
+        }
+    }
+
     /// The photons found, nearest first, ties by id.
     #[must_use]
     pub fn sorted(&self) -> Vec<(f32, u32)> {

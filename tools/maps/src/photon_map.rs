@@ -3,6 +3,7 @@
 use super::{AccessObserver, Nearest};
 use pm_formats::Number;
 use pm_formats::trace::Region;
+use std::sync::Arc;
 
 /// A structure that finds the photons nearest to a point.
 ///
@@ -29,6 +30,12 @@ pub trait PhotonMap: Send + Sync {
     /// True if the photons found are always the nearest.
     fn is_exact(&self) -> bool {
         true
+    }
+
+    /// Ids of the photons in the order in which they lie in the map, if searches tell of them by their places in it
+    /// ([`Nearest::places`]): what is asked of the photons found is better kept in that order.
+    fn order(&self) -> Option<&Arc<[u32]>> {
+        None
     }
 
     /// Does a search narrow its radius as it finds photons? Of one that does not, the first radius is all that matters.

@@ -99,6 +99,10 @@ impl PhotonMap for WideTree {
         self.photons
     }
 
+    fn order(&self) -> Option<&Arc<[u32]>> {
+        Some(&self.ids)
+    }
+
     fn narrows(&self) -> bool {
         false
     }

@@ -68,7 +68,8 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
         &query_header.materials,
         photons.emitted_paths,
         options(&args, &photons),
-    );
+    )
+    .in_order(map.order());
     let how = Precomputation {
         map,
         search,

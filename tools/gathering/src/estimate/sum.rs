@@ -40,25 +40,25 @@ impl RadianceEstimate<'_> {
         let exact = self.exact_sums && kernel == Kernel::Constant && brdf.is_none() && slope.is_none();
         if !exact {
             // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
-            own.sort_unstable_by_key(|&(id, _)| id);
+            own.sort_unstable_by_key(|&(place, _)| self.placed.id(place));
         }
         let mut sum = [0f64; 3];
-        for &(id, distance) in &*own {
-            let power = self.flux[id as usize].power;
+        for &(place, distance) in &*own {
+            let power = self.placed.power(place);
             let weight = match kernel {
                 Kernel::Constant => 1.0,
                 _ => kernel.weight(f64::from(distance).sqrt() / surface.radius),
             };
             let weight = match slope {
                 None => weight,
-                Some(slope) => weight * slope.weight(surface.offset(&self.photons[id as usize])),
+                Some(slope) => weight * slope.weight(surface.offset(self.placed.position(place))),
             };
             match brdf {
-                None => (0..3).for_each(|channel| sum[channel] += weight * f64::from(power[channel])),
+                None => (0..3).for_each(|channel| sum[channel] += weight * power[channel]),
                 Some((lobe, diffuse)) => {
-                    let glossy = lobe.brdf(self.photons[id as usize].towards_source());
+                    let glossy = lobe.brdf(self.placed.photon(place).towards_source());
                     for channel in 0..3 {
-                        sum[channel] += weight * f64::from(power[channel]) * (diffuse[channel] + glossy[channel]);
+                        sum[channel] += weight * power[channel] * (diffuse[channel] + glossy[channel]);
                     }
                 }
             }

@@ -4,7 +4,7 @@ use super::*;
 use bytemuck::Zeroable as _;
 use glam::Vec3;
 use pm_formats::{Material, Photon, Query};
-use pm_maps::Nearest;
+use pm_maps::{Blind, BruteForce, Nearest, PhotonMap as _, Search, WideTree};
 use pm_random::Random;
 use std::f64::consts::PI;
 
@@ -262,6 +262,51 @@ fn a_glossy_surface_weighs_photons_by_where_they_come_from() {
             let expected = (diffuse / PI + lobe) * 8.0 / PI;
             // A photon's direction is packed to 0.016 rad: 1 - 20 x 0.016^2 / 2 at the peak, more on its slope.
             assert!((found / expected - 1.0).abs() < 0.01, "{x}: {found} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_order_of_a_map_changes_nothing() {
+    // In a corner, so that there are strangers; of even power, of powers that differ a little, and much.
+    let mut random = Random::new(&[11]);
+    let photons = corner(&mut random, 2000.0, 0.01, 2);
+    let glossy = vec![Material { specular: [0.5; 3], exponent: 7.0, ..material()[0].clone() }];
+    for spread in [0, 5, 40] {
+        let power = |random: &mut Random| 1.37 * 2f32.powi((random.unit() * spread as f32) as i32 - 20);
+        let photons: Vec<Photon> = photons
+            .iter()
+            .map(|photon| {
+                let power = [power(&mut random), power(&mut random), 0.0];
+                Photon::new(photon.position, power, [0.5; 3], UP, photon.normal()).unwrap()
+            })
+            .collect();
+        let (wide, brute) = (WideTree::build(&photons).unwrap(), BruteForce::build(&photons).unwrap());
+        for (kernel, materials) in
+            [(Kernel::Constant, material()), (Kernel::Cone, material()), (Kernel::Constant, glossy.clone())]
+        {
+            let options = EstimateOptions { k: 40, kernel, ..OPTIONS };
+            let by_id = RadianceEstimate::new(&photons, &materials, 1, options);
+            let by_place = RadianceEstimate::new(&photons, &materials, 1, options).in_order(wide.order());
+            let (mut found, mut other) = (Nearest::new(40, 0.0), Nearest::new(40, 0.0));
+            let mut scratch = Scratch::default();
+            for step in 0..60u8 {
+                let position = [f32::from(step) / 200.0, 0.0, f32::from(step % 7) / 40.0];
+                let query = Query { position, ..query() };
+                Search::new(40, f32::INFINITY).run(&wide, position, &mut found, &mut Blind);
+                Search::new(40, f32::INFINITY).run(&brute, position, &mut other, &mut Blind);
+                let expected = by_id.contribution(&query, &other, &mut scratch);
+                assert!(matches!(expected, Outcome::Radiance([r, ..]) if r > 0.0), "{expected:?}");
+                for estimate in [&by_id, &by_place] {
+                    for found in [&found, &other] {
+                        assert_eq!(
+                            estimate.contribution(&query, found, &mut scratch),
+                            expected,
+                            "{spread}, {kernel:?}"
+                        );
+                    }
+                }
+            }
         }
     }
 }
