@@ -60,7 +60,7 @@ pub fn run(args: &Args, typed: &Typed, registries: &Registries) -> anyhow::Resul
     let mut results = Results::default();
     if let Some(file) = &args.misses {
         miss_file::write(args, typed, registries, &questions, file, &mut results)?;
-        if file == Path::new("-") {
+        if file == Path::new("-") && args.output() == Path::new("-") {
             return Ok(None);
         }
     } else {

@@ -1,13 +1,13 @@
 //! What pm-cachesim may be asked.
 
-use super::sizes::Sizes;
-use crate::cli::{Voice, choice};
+use super::sizes::{Size, Sizes};
+use crate::cli::{OutputArgs, Voice, choice};
 use crate::foreign_args::ForeignArgs;
 use clap::Parser;
 use pm_caches::{CacheConfig, ChosenPolicy, Dram, LaneSource, SpanRule, Ways};
 use pm_report::Format;
 use pm_size::Bytes;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Simulate caches over an access trace: how much memory traffic is left?
 ///
@@ -30,7 +30,7 @@ pub struct Args {
     /// Without `,hash` the set of a line is the remainder of its number by the number of sets, which may be any.
     #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", conflicts_with_all = ["sizes", "lines", "ways", "policies"])]
     pub(super) cache: Vec<CacheConfig>,
-    /// Cache sizes, combined with each of --lines, --ways and --policies; 4K..4M is each power of two between [default: 128K]
+    /// Sizes, combined with each of --lines, --ways and --policies; 4K..4M is each power of two, 10% of the map [default: 128K]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(super) sizes: Vec<Sizes>,
     /// Line sizes
@@ -95,6 +95,8 @@ pub struct Args {
     #[arg(long, default_value = "table", value_parser = choice::<Format>())]
     pub(super) format: Format,
     #[command(flatten)]
+    pub(super) output: OutputArgs,
+    #[command(flatten)]
     pub(super) voice: Voice,
 }
 
@@ -119,7 +121,13 @@ impl Args {
     }
 
     /// The sizes asked for.
-    pub(super) fn all_sizes(&self) -> Vec<Bytes> {
+    pub(super) fn all_sizes(&self) -> Vec<Size> {
         self.sizes.iter().flat_map(|sizes| sizes.0.clone()).collect()
+    }
+
+    /// Where the table goes.
+    #[must_use]
+    pub fn output(&self) -> &Path {
+        self.output.output.as_deref().unwrap_or(Path::new("-"))
     }
 }

@@ -6,6 +6,10 @@ use std::rc::Rc;
 
 /// What came of one cache and one trace.
 pub(super) struct CacheResult {
+    /// The name of the trace's file, as it was typed.
+    pub(super) trace: Rc<str>,
+    /// The photon map, if it is a trace of one.
+    pub(super) map: Rc<str>,
     /// The order of the queries.
     pub(super) order: String,
     /// Which part of the stream the trace is of, in words; empty if it is of all.

@@ -6,6 +6,10 @@ use std::rc::Rc;
 /// One size of a curve: exact, from a sample of the lines, or both.
 #[derive(Clone)]
 pub(super) struct CurvePoint {
+    /// The name of the trace's file, as it was typed.
+    pub(super) file: Rc<str>,
+    /// The photon map, if it is a trace of one.
+    pub(super) map: Rc<str>,
     /// The order of the queries.
     pub(super) order: String,
     /// Searches in flight at a time.

@@ -60,7 +60,7 @@ pub(super) fn write(
             let end = trace.end()?.clone();
             let stages = |counts: &CacheCounts| end.stages.iter().cloned().chain([report(counts)]).collect();
             let (output, findings) = stream.finish(stages)?;
-            (output, Source::ours(trace.header(), &end), findings)
+            (output, Source::ours(path, trace.header(), &end), findings)
         }
         Opened::Foreign(mut trace) => {
             let mut header = header_of(&trace, step);
@@ -73,7 +73,7 @@ pub(super) fn write(
             };
             trace.replay_blocks(&mut stream, end_block).with_context(|| name.clone())?;
             simulate::remark_left_out(args, &name, &trace);
-            let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
+            let source = Source::foreign(path, trace.format().word().to_owned(), trace.regions());
             let (output, findings) = stream.finish(|counts| vec![report(counts)])?;
             (output, source, findings)
         }

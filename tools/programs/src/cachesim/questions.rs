@@ -1,9 +1,11 @@
 //! What is to be found out: the caches, and what else of a trace.
 
+use super::sizes::Size;
 use super::{Args, traffic};
 use crate::cli::usage;
-use pm_caches::{CacheConfig, Measures, ResultMemory, SpanRule};
+use pm_caches::{CacheConfig, Measures, ResultMemory, SpanRule, Ways};
 use pm_formats::Header;
+use pm_formats::trace::Region;
 use pm_report::Format;
 use pm_size::Bytes;
 
@@ -19,7 +21,19 @@ const DEFAULT_SIZE: Bytes = Bytes(128 << 10);
 impl Questions {
     /// What the arguments ask.
     pub(super) fn new(args: &Args) -> anyhow::Result<Self> {
-        Ok(Self { caches: caches(args)?, measures: measures(args)? })
+        // A share of a map that is not known yet: any map shows what is wrong.
+        Ok(Self { caches: caches(args, &[])?, measures: measures(args)? })
+    }
+
+    /// The caches of a trace whose map lies in these regions.
+    pub(super) fn caches_of(&self, args: &Args, regions: &[Region]) -> anyhow::Result<Vec<CacheConfig>> {
+        if !args.all_sizes().iter().any(|size| matches!(size, Size::Share(_))) {
+            return Ok(self.caches.clone());
+        }
+        if regions.iter().any(Region::is_addresses) {
+            return Err(usage("--sizes: a share is one of the map, and a trace of all addresses has none"));
+        }
+        caches(args, regions)
     }
 
     /// The measures, given what the trace says.
@@ -42,19 +56,27 @@ pub(super) fn asked_wrongly(error: impl std::fmt::Display) -> anyhow::Error {
     usage(error.to_string())
 }
 
-fn caches(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
+fn caches(args: &Args, regions: &[Region]) -> anyhow::Result<Vec<CacheConfig>> {
     if !args.cache.is_empty() || args.is_curve() {
         return Ok(args.cache.clone());
     }
     let mut sizes = args.all_sizes();
     if sizes.is_empty() {
-        sizes.push(DEFAULT_SIZE);
+        sizes.push(Size::Fixed(DEFAULT_SIZE));
     }
     let mut caches = vec![];
     for line in &args.lines {
         for size in &sizes {
             for &ways in &args.ways {
                 for &policy in &args.policies {
+                    let size = Bytes(size.bytes(
+                        line.0,
+                        match ways {
+                            Ways::Full => 1,
+                            Ways::N(ways) => ways.get().into(),
+                        },
+                        lines_of(regions, line.0),
+                    ));
                     let cache = CacheConfig::line(line.0).and_then(|line| CacheConfig::new(size.0, ways, line, policy));
                     let cache = cache.map_err(|error| usage(format!("{size},{ways},{line},{policy}: {error}")));
                     caches.push(cache?);
@@ -63,6 +85,11 @@ fn caches(args: &Args) -> anyhow::Result<Vec<CacheConfig>> {
         }
     }
     Ok(caches)
+}
+
+/// The lines that a map in these regions occupies.
+fn lines_of(regions: &[Region], line: u64) -> u64 {
+    regions.iter().map(|region| region.size.div_ceil(line.max(1))).sum()
 }
 
 /// What to find out besides the caches' own counts: what the format shows.

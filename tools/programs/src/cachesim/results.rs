@@ -5,6 +5,7 @@ use super::columns;
 use super::curve_point::CurvePoint;
 use super::found::Found;
 use super::questions::asked_wrongly;
+use super::sizes::Size;
 use super::{Args, traffic};
 use crate::cli::usage;
 use pm_caches::{CacheConfig, Findings, LEAST_MODEL, TraceCounts, Ways, WindowedCounts};
@@ -12,7 +13,7 @@ use pm_formats::trace::Region;
 use pm_formats::vocabulary::meaning;
 use pm_formats::{End, Header, as_commands};
 use pm_report::{Format, Table};
-use pm_size::Bytes;
+use std::path::Path;
 use std::rc::Rc;
 
 /// What is printed at the end.
@@ -24,6 +25,10 @@ pub(super) struct Results {
 
 /// The trace that something was found of.
 pub(super) struct Source {
+    /// The name of the file, as it was typed.
+    trace: Rc<str>,
+    /// The photon map, if it is a trace of one.
+    map: Rc<str>,
     /// The order of the queries, or the format of a foreign trace.
     order: String,
     /// Which part of the stream it is, in words; empty if it is all.
@@ -38,24 +43,29 @@ pub(super) struct Source {
 
 impl Source {
     /// One of our traces, read to its end.
-    pub(super) fn ours(header: &Header, end: &End) -> Self {
+    pub(super) fn ours(path: &Path, header: &Header, end: &End) -> Self {
         let (query_bytes, order_bytes) = (traffic::query_bytes(end), traffic::order_bytes(end));
         let sample = header.meaning(meaning::SAMPLE).unwrap_or_default().to_owned();
         let history = as_commands(&header.history).trim_end().replace('\n', "; ").into();
         let order = order_of(header);
-        Self { order, sample, history, query_bytes, order_bytes, ..Self::foreign(String::new(), &header.regions) }
+        let map = header.meaning(meaning::MAP).unwrap_or_default().into();
+        let source = Self::foreign(path, order, &header.regions);
+        Self { map, sample, history, query_bytes, order_bytes, ..source }
     }
 
     /// A trace in another format.
-    pub(super) fn foreign(format: String, regions: &[Region]) -> Self {
+    pub(super) fn foreign(path: &Path, format: String, regions: &[Region]) -> Self {
         let regions = Rc::new(regions.iter().map(|region| region.name.clone()).collect());
         let (sample, history) = (String::new(), "".into());
-        Self { order: format, sample, history, regions, query_bytes: 0, order_bytes: 0 }
+        let trace = path.display().to_string().into();
+        Self { trace, map: "".into(), order: format, sample, history, regions, query_bytes: 0, order_bytes: 0 }
     }
 
     /// What was found of a cache with so many searches in flight.
     fn result(&self, lanes: u16, found: Found, result_bytes: Option<u64>) -> CacheResult {
         CacheResult {
+            trace: Rc::clone(&self.trace),
+            map: Rc::clone(&self.map),
             order: self.order.clone(),
             sample: self.sample.clone(),
             lanes,
@@ -93,8 +103,9 @@ impl Results {
             let (exact, sampled) = (exact.next(), sampled.next());
             let trace = exact.as_ref().map(|curve| curve.trace).or(sampled.as_ref().map(|curve| curve.trace));
             let Some(trace) = trace else { return Ok(()) };
+            let (file, map) = (Rc::clone(&source.trace), Rc::clone(&source.map));
             let (order, history) = (source.order.clone(), Rc::clone(&source.history));
-            let mut point = CurvePoint { order, lanes, history, exact, sampled, trace, lines: 0 };
+            let mut point = CurvePoint { file, map, order, lanes, history, exact, sampled, trace, lines: 0 };
             for lines in curve_sizes(args, &point)? {
                 point.lines = lines;
                 self.points.push(point.clone());
@@ -107,7 +118,10 @@ impl Results {
 fn curve_sizes(args: &Args, curve: &CurvePoint) -> anyhow::Result<Vec<u64>> {
     let TraceCounts { line_bytes, blocks, .. } = curve.trace;
     let sizes = args.all_sizes();
-    let lines = |size: Bytes| Ok(CacheConfig::lru(size.0, Ways::Full, line_bytes).map_err(asked_wrongly)?.lines());
+    let lines = |size: Size| {
+        let bytes = size.bytes(line_bytes.into(), 1, blocks);
+        Ok(CacheConfig::lru(bytes, Ways::Full, line_bytes).map_err(asked_wrongly)?.lines())
+    };
     let asked: Vec<u64> = sizes.into_iter().map(lines).collect::<anyhow::Result<_>>()?;
     if let Some(sampled) = &curve.sampled {
         let least = sampled.least();

@@ -24,18 +24,19 @@ pub(super) fn simulate(
     match open(args, path, imports)? {
         Opened::Ours(blocks) => {
             let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
-            simulate_ours(args, trace, questions, results).context(name)
+            simulate_ours(args, path, trace, questions, results).context(name)
         }
         Opened::Foreign(mut trace) => {
             if args.lanes.iter().any(|&lanes| lanes > 1) {
                 return Err(usage(format!("{name}: {NO_SEARCHES}")));
             }
+            let caches = questions.caches_of(args, trace.regions()).context(name.clone())?;
             let measures = questions.measures_of_addresses();
-            let simulation = Simulation::measuring(trace.regions(), &questions.caches, &measures);
+            let simulation = Simulation::measuring(trace.regions(), &caches, &measures);
             let mut simulation = simulation.context(name.clone())?;
             trace.replay(&mut simulation).and_then(|()| Ok(simulation.check()?)).context(name.clone())?;
             remark_left_out(args, &name, &trace);
-            let source = Source::foreign(trace.format().word().to_owned(), trace.regions());
+            let source = Source::foreign(path, trace.format().word().to_owned(), trace.regions());
             results.add(args, &source, 1, simulation.findings())
         }
     }
@@ -65,12 +66,14 @@ pub(super) fn remark_left_out(args: &Args, name: &str, trace: &Trace) {
 /// Simulates all caches on one of our traces, once for each number of lanes.
 fn simulate_ours<R: Read>(
     args: &Args,
+    path: &Path,
     mut trace: TraceReader<R>,
     questions: &Questions,
     results: &mut Results,
 ) -> anyhow::Result<()> {
-    let (configs, measures) = (&questions.caches, questions.measures_of(trace.header()));
+    let measures = questions.measures_of(trace.header());
     let regions = trace.header().regions.clone();
+    let configs = &questions.caches_of(args, &regions)?;
     let of_addresses = regions.iter().any(Region::is_addresses);
     if of_addresses && args.lanes.iter().any(|&lanes| lanes > 1) {
         return Err(usage(NO_SEARCHES));
@@ -84,14 +87,14 @@ fn simulate_ours<R: Read>(
         })?;
         replay(args, &mut trace, &mut windows)?;
         let rows = windows.finish(Some(sample.windows), sample.share);
-        results.add_windows(&Source::ours(trace.header(), trace.end()?), rows);
+        results.add_windows(&Source::ours(path, trace.header(), trace.end()?), rows);
         return Ok(());
     }
     if args.lanes.is_empty() || of_addresses {
         let mut simulation = Simulation::measuring(&regions, configs, &measures)?;
         replay(args, &mut trace, &mut simulation)?;
         simulation.check()?;
-        return results.add(args, &Source::ours(trace.header(), trace.end()?), 1, simulation.findings());
+        return results.add(args, &Source::ours(path, trace.header(), trace.end()?), 1, simulation.findings());
     }
     let lanes = |&lanes: &u16| -> anyhow::Result<_> {
         // Where searches are mixed, an access belongs to none of them.
@@ -101,7 +104,7 @@ fn simulate_ours<R: Read>(
     };
     let mut together = Together(args.lanes.iter().map(lanes).collect::<anyhow::Result<_>>()?);
     replay(args, &mut trace, &mut together)?;
-    let source = Source::ours(trace.header(), trace.end()?);
+    let source = Source::ours(path, trace.header(), trace.end()?);
     for (&lanes, simulation) in args.lanes.iter().zip(together.0) {
         results.add(args, &source, lanes, simulation.finish().context("temporary file")?.findings())?;
     }

@@ -44,6 +44,8 @@ pub(super) const SHARE: &str = "sample_share";
 
 /// All columns but those of regions.
 pub(super) const COLUMNS: &[(&str, Merge)] = &[
+    ("trace", Same),
+    ("map", Same),
     ("order", Same),
     ("sample", Words),
     ("cache", Same),

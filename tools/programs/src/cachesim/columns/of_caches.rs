@@ -13,8 +13,16 @@ pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Ta
     let windowed = results.iter().any(|of| of.counts().is_none());
     // Where all traces are read one search after the other there is nothing to say.
     let lanes = results.iter().any(|of| of.lanes > 1);
+    // In the table only where the rest of a row does not tell two apart.
+    let names = |of: &CacheResult| (of.order.clone(), of.sample.clone(), of.config().to_string(), of.lanes);
+    let same: BTreeSet<_> = results.iter().map(names).collect();
+    let traces: BTreeSet<_> = results.iter().map(|of| of.trace.clone()).collect();
+    let alike = same.len() < results.len() && traces.len() > 1;
+    let maps: BTreeSet<_> = results.iter().map(|of| of.map.clone()).collect();
     let columns = Columns::new()
-        .text("order", true, |of: &CacheResult| of.order.clone())
+        .text("trace", alike, |of: &CacheResult| of.trace.to_string())
+        .text("map", maps.len() > 1, |of| of.map.to_string())
+        .text("order", true, |of| of.order.clone())
         .text("sample", sampled, |of| of.sample.clone())
         .text("cache", true, |of| of.config().to_string())
         .count("lanes", lanes, |of| of.lanes.into())

@@ -10,7 +10,9 @@ pub(in super::super) fn of_curves(format: Format, points: &[CurvePoint]) -> Tabl
     let lanes = points.iter().any(|of| of.lanes > 1);
     let exact = points.iter().any(|of| of.exact.is_some());
     let mut columns = Columns::new()
-        .text("order", true, |of: &CurvePoint| of.order.clone())
+        .text("trace", false, |of: &CurvePoint| of.file.to_string())
+        .text("map", false, |of| of.map.to_string())
+        .text("order", true, |of| of.order.clone())
         .text("cache", true, CurvePoint::cache)
         .count("lanes", lanes, |of| of.lanes.into())
         .count("cache_lines", true, |of| of.lines)
