@@ -39,6 +39,17 @@ pub struct Series {
     pub points: Vec<Point>,
 }
 
+impl Plot {
+    /// The number by which a series to compare with is marked: that of ours that it belongs to, if there is one.
+    pub(crate) fn mark_of(&self, reference: usize) -> usize {
+        let name = &self.reference[reference].name;
+        let is_its = |ours: &Series| {
+            *name == ours.name || name.strip_prefix(&ours.name).is_some_and(|rest| rest.starts_with(" ("))
+        };
+        self.series.iter().position(is_its).unwrap_or(reference)
+    }
+}
+
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {

@@ -13,6 +13,10 @@
 //! scan = "row('out/all.csv', order='scanline').fetches_per_query"
 //! hilbert = "row('out/all.csv', order='scanline, hilbert').fetches_per_query"
 //!
+//! [bars]                   # what tells the story first: a few numbers on a logarithmic scale
+//! title = "Bytes fetched"
+//! bar = [{ label = "scanline", value = "scan * 128", text = "{{ scan * 128 | B }}" }]
+//!
 //! [[section]]
 //! heading = "Caches"       # also: id, command
 //! text = "Markdown, with {{ row('out/all.csv', order='scanline').fetches | , }} and links such as [this](#caches)."
@@ -59,6 +63,7 @@
 //! column `found` (full, sampled, thinned) of its row, and below charts and tables stand their data, the command that made
 //! them, and the `history` of their rows, where the tables have these columns.
 
+mod bars;
 mod below;
 mod blocks;
 mod chart;
@@ -72,6 +77,7 @@ mod table;
 mod writer;
 mod written;
 
+pub use bars::{Bar, Bars};
 pub use blocks::{ChartBlock, Join, Paragraph, PictureBlock, Shown, ShownColumn, TableBlock};
 pub use description::{Block, Description, Section};
 pub use number_format::NumberFormat;

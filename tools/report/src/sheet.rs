@@ -9,6 +9,9 @@ use csv::StringRecord;
 pub use choose::Values;
 pub use files::Sheets;
 
+/// Columns that an error lists; of more it names the nearest.
+const MOST_LISTED: usize = 12;
+
 /// A CSV file, read.
 #[derive(Clone, Debug)]
 pub struct Sheet {
@@ -92,9 +95,25 @@ impl Sheet {
     /// If there is none of this name: says which there are.
     pub fn column(&self, column: &str) -> Result<usize, ReportError> {
         self.find(column).ok_or_else(|| {
-            let columns = self.columns.join(", ");
-            ReportError::asked(format!("{}: there is no column `{column}`; there are {columns}", self.name))
+            let known = match self.columns.len() {
+                0..=MOST_LISTED => format!("there are {}", self.columns.join(", ")),
+                number => format!("of {number} columns the nearest are {}", self.nearest(column).join(", ")),
+            };
+            ReportError::asked(format!("{}: there is no column `{column}`; {known}", self.name))
         })
+    }
+
+    /// The three columns whose names are most like this.
+    fn nearest(&self, wanted: &str) -> Vec<&str> {
+        let mut columns: Vec<&str> = self.columns.iter().map(String::as_str).collect();
+        let likeness = |column: &str| {
+            let within = if column.contains(wanted) || wanted.contains(column) { 1.0 } else { 0.0 };
+            within + strsim::jaro_winkler(column, wanted)
+        };
+        // Stable: of equals the one further left.
+        columns.sort_by(|a, b| likeness(b).total_cmp(&likeness(a)));
+        columns.truncate(3);
+        columns
     }
 
     /// Puts the rows of another sheet below its own, by the names of the columns; what one of them lacks is empty.

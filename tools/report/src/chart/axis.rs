@@ -7,7 +7,7 @@ pm_registry::choices! {
     #[derive(Debug, Default, serde::Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Scale {
-        /// `linear`, unless the values span more than a factor of 20: then `log2` if all are powers of two, else `log10`
+        /// `log2` if all values are powers of two, and three of them differ; else `log10` if they span more than a factor of 20
         #[default]
         Auto = "auto",
         /// Equal differences, equal lengths
@@ -51,8 +51,9 @@ impl Axis {
         let (least, greatest) = ends(values.clone());
         let scale = match wanted {
             _ if !words.is_empty() => Scale::Linear,
-            Scale::Auto if !positive || greatest < LOGARITHMIC_FROM * least => Scale::Linear,
-            Scale::Auto if values.clone().all(|x| x.log2().fract() == 0.0) => Scale::Log2,
+            Scale::Auto if !positive => Scale::Linear,
+            Scale::Auto if are_powers_of_two(values.clone()) => Scale::Log2,
+            Scale::Auto if greatest < LOGARITHMIC_FROM * least => Scale::Linear,
             Scale::Auto => Scale::Log10,
             chosen => chosen,
         };
@@ -92,6 +93,19 @@ impl Axis {
             _ => (least - 0.5, greatest + 0.5),
         }
     }
+}
+
+/// Are positive values powers of two, three different ones at least? Two are soon so by chance.
+fn are_powers_of_two(values: impl Iterator<Item = f64>) -> bool {
+    let mut powers = std::collections::BTreeSet::new();
+    for value in values {
+        let power = value.log2();
+        if power.fract() != 0.0 {
+            return false;
+        }
+        powers.insert(power as i64);
+    }
+    powers.len() >= 3
 }
 
 /// The least and the greatest of some finite values; (1, 1) of none.

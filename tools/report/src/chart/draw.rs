@@ -21,6 +21,9 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ruler, Ruler>>
 /// What came of drawing.
 pub(super) type Drawn = Result<(), Box<dyn Error>>;
 
+/// Series that are named where they end; more have a list of names.
+const MOST_LABELLED: usize = 7;
+
 /// Height of a line of text in pixels; the library's letters are 1.24 times smaller.
 const LETTER: i32 = 16;
 
@@ -35,7 +38,7 @@ impl Plot {
 
         let mut chart = self.axes(&left, look, (width - legend, height))?;
         for (number, series) in self.reference.iter().enumerate() {
-            self.draw_series(&mut chart, series, GREY, number, false)?;
+            self.draw_series(&mut chart, series, GREY, self.mark_of(number), false)?;
         }
         if look.frontier {
             self.draw_frontier(&mut chart)?;
@@ -44,7 +47,8 @@ impl Plot {
             self.draw_series(&mut chart, series, of_series(number), number, look.lines)?;
         }
         if look.legend {
-            self.draw_legend(&right, height, look.lines)?;
+            let ends = if look.lines { self.ends(&chart) } else { vec![] };
+            self.draw_legend(&right, height, look.lines, ends)?;
         }
         root.present().map_err(own)
     }
@@ -91,10 +95,21 @@ impl Plot {
             .y_label_formatter(&|&place| y.tick_label(place))
             .draw()
             .map_err(own)?;
+        small_ticks(&chart, (x, xs), (y, ys))?;
         if upright {
             upright_words(area, &chart, x)?;
         }
         Ok(chart)
+    }
+
+    /// How far down each series ends, in pixels; of many there is no room for that.
+    fn ends(&self, chart: &Chart<'_, '_>) -> Vec<i32> {
+        if self.series.len() > MOST_LABELLED {
+            return vec![];
+        }
+        let area = chart.plotting_area();
+        let down = |point: &Point| area.map_coordinate(&(self.x.place(point.x), self.y.place(point.y))).1;
+        self.series.iter().map(|series| series.points.last().map_or(0, down)).collect()
     }
 
     /// The ends of both axes. Intervals lie within the picture, unless they reach to where a logarithm has no place.
@@ -108,6 +123,27 @@ impl Plot {
         (self.x.range(points().map(|point| point.x)), y.range(points().flat_map(bars)))
     }
 }
+
+/// Small ticks on logarithmic axes, inwards.
+fn small_ticks(chart: &Chart<'_, '_>, (x, xs): (&Axis, (f64, f64)), (y, ys): (&Axis, (f64, f64))) -> Drawn {
+    let area = chart.plotting_area();
+    let inner = area.strip_coord_spec();
+    let corner = area.get_base_pixel();
+    let (across, down) = area.get_pixel_range();
+    let (bottom, left) = (down.end - corner.1, across.start - corner.0);
+    for place in x.small_ticks(xs.0, xs.1) {
+        let at = area.map_coordinate(&(place, ys.0)).0 - corner.0;
+        inner.draw(&PathElement::new(vec![(at, bottom), (at, bottom - SMALL)], INK.stroke_width(1))).map_err(own)?;
+    }
+    for place in y.small_ticks(ys.0, ys.1) {
+        let at = area.map_coordinate(&(xs.0, place)).1 - corner.1;
+        inner.draw(&PathElement::new(vec![(left, at), (left + SMALL, at)], INK.stroke_width(1))).map_err(own)?;
+    }
+    Ok(())
+}
+
+/// Length of a small tick in pixels.
+const SMALL: i32 = 4;
 
 /// Words below the axis across. The library would centre them on the axis.
 fn upright_words(root: &Area<'_>, chart: &Chart<'_, '_>, x: &Axis) -> Drawn {

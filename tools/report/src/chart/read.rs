@@ -50,6 +50,15 @@ impl Plot {
                 None => side.push(Series { name: row.series, points: vec![point] }),
             }
         }
+        // What is compared with a series of ours says whose it is: `hilbert (paper)`.
+        if let Some(whose) = references.first().map(|sheet| stem(sheet.name())) {
+            let whose = whose.split('-').next().unwrap_or_default();
+            for other in &mut reference {
+                if series.iter().any(|ours| ours.name == other.name) {
+                    other.name = format!("{} ({whose})", other.name);
+                }
+            }
+        }
         if !of_words {
             // Lines go from left to right, in whatever order the rows came.
             let all = series.iter_mut().chain(&mut reference);

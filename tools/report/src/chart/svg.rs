@@ -61,8 +61,10 @@ impl Plot {
             (&*series.name, key(&|area| draw_key(area, middle, number, of_series(number), look.lines)))
         });
         let reference = self.reference.iter().enumerate();
-        let reference =
-            reference.map(|(number, series)| (&*series.name, key(&|area| draw_key(area, middle, number, GREY, false))));
+        let reference = reference.map(|(number, series)| {
+            let number = self.mark_of(number);
+            (&*series.name, key(&|area| draw_key(area, middle, number, GREY, false)))
+        });
         let step = PathElement::new(vec![(2, middle), (26, middle)], INK.stroke_width(1));
         let frontier = look.frontier.then(|| ("frontier", key(&|area| area.draw(&step).map_err(own))));
         ours.chain(reference).chain(frontier).collect()

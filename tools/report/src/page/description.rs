@@ -1,5 +1,6 @@
 //! The description of a page: what its TOML may say. The format is explained in the module [`page`](super).
 
+use super::bars::Bars;
 use super::blocks::{ChartBlock, Paragraph, PictureBlock, Shown, TableBlock};
 use crate::ReportError;
 use serde::Deserialize;
@@ -16,6 +17,9 @@ pub struct Description {
     /// What stands before the first section, in Markdown.
     #[serde(default)]
     pub intro: String,
+    /// What stands above all else.
+    #[serde(default)]
+    pub bars: Option<Bars>,
     /// The folder that files are named from, seen from the description's own.
     #[serde(default)]
     pub folder: PathBuf,

@@ -7,8 +7,9 @@ use minijinja::{AutoEscape, Environment, Output, State, UndefinedBehavior, Value
 use std::sync::OnceLock;
 
 /// A file of this folder each; what they are given is escaped unless it is HTML already.
-const TEMPLATES: [(&str, &str); 9] = [
+const TEMPLATES: [(&str, &str); 10] = [
     ("page.html", include_str!("templates/page.html")),
+    ("bars.html", include_str!("templates/bars.html")),
     ("chart.html", include_str!("templates/chart.html")),
     ("table.html", include_str!("templates/table.html")),
     ("picture.html", include_str!("templates/picture.html")),

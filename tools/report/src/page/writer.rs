@@ -2,7 +2,7 @@
 
 use super::html::{render, safe};
 use super::written::evaluate;
-use super::{Block, Description, Section, chart, markdown, picture, table};
+use super::{Block, Description, Section, bars, chart, markdown, picture, table};
 use crate::ReportError;
 use crate::chart::dark_style;
 use crate::expression::{Definition, Evaluator};
@@ -44,6 +44,8 @@ impl Writer<'_> {
         let page = self.page;
         let title = self.plain(&page.title)?;
         let intro = self.text(&page.intro, None)?;
+        let bars =
+            page.bars.as_ref().map(|bars| bars::bars(bars, &self.evaluator, |text| self.plain(text))).transpose()?;
         let (ids, taken) = page.ids()?;
         let mut sections = vec![];
         for (section, id) in page.section.iter().zip(ids) {
@@ -60,6 +62,7 @@ impl Writer<'_> {
                 generator,
                 title,
                 style => safe(format!("{STYLE}{}", dark_style())),
+                bars => bars.unwrap_or_else(|| Value::from(())),
                 intro,
                 sections,
             },

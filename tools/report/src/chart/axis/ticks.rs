@@ -32,6 +32,20 @@ impl Axis {
         }
     }
 
+    /// Places between the ticks of a logarithmic axis: of each decade 2 to 9, of powers of two all; none where they would be
+    /// too many to be told apart.
+    pub(in crate::chart) fn small_ticks(&self, low: f64, high: f64) -> Vec<f64> {
+        let (first, last) = (low.floor() as i64, high.ceil() as i64);
+        let places: Vec<f64> = match self.scale {
+            Scale::Log10 if high - low <= 8.0 => (first..=last)
+                .flat_map(|decade| (2..=9).map(move |digit| decade as f64 + f64::from(digit).log10()))
+                .collect(),
+            Scale::Log2 if high - low <= 40.0 => (first..=last).map(|power| power as f64).collect(),
+            _ => vec![],
+        };
+        places.into_iter().filter(|place| (low..=high).contains(place)).collect()
+    }
+
     /// What stands at a tick.
     pub(in crate::chart) fn tick_label(&self, place: f64) -> String {
         if !self.words.is_empty() {
@@ -42,15 +56,25 @@ impl Axis {
             Scale::Log10 => 10.0_f64.powf(place),
             Scale::Linear | Scale::Auto => place,
         };
-        number(value, self.bytes)
+        match self.scale {
+            Scale::Log2 if value >= 1.0 && (self.bytes || value >= 9999.5) => binary(value),
+            Scale::Log2 => number(value),
+            _ if self.bytes && value != 0.0 => number(value) + "B",
+            _ => number(value),
+        }
     }
 }
 
-/// A number as a tick says it: `64K` if it is a round number of bytes, else `2.5M`, `0.002`, `1e-6`.
-fn number(value: f64, bytes: bool) -> String {
-    if bytes && value >= 1.0 && value < 2.0_f64.powi(63) && value.log2().fract().abs() < 1e-9 {
-        return Bytes(value.round() as u64).to_string();
+/// A power of two as a tick says it: `64K`, by powers of 1024.
+fn binary(value: f64) -> String {
+    match value < 2.0_f64.powi(63) && value.log2().fract().abs() < 1e-9 {
+        true => Bytes(value.round() as u64).to_string(),
+        false => number(value),
     }
+}
+
+/// A number as a tick says it, by powers of 1000: `2.5M`, `0.002`, `1e-6`.
+fn number(value: f64) -> String {
     // Three digits; what is left of the arithmetic that found the tick goes with the rest.
     let short = |x: f64| {
         let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
