@@ -5,10 +5,13 @@ THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 CARGO ?= cargo
 BIN := target/release
 
+# All programs.
+NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart view scene picture sweep)
+
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability bench man clean
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability bench man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{11\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -31,7 +34,7 @@ run: $(ORDERS:%=out/%.csv) out/cornell.exr ## The five orders compared: a table,
 	@echo
 	@echo "Picture: out/cornell.exr (linear), out/cornell.png (preview). Streams: out/*.pmp, *.pmq, *.pmt; see pm-view."
 
-TAKEN += $(ORDERS) soft map direct seen caustics cornell man
+TAKEN += $(ORDERS) soft map direct seen caustics cornell man dist cluster
 
 out/map.pmp: $(call made_with,PHOTONS PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-photons -n $(PHOTONS) -t $(THREADS) -o $@
@@ -112,6 +115,11 @@ test-python: programs ## The reader in Python against the streams that are kept 
 	target/python/bin/pip install -q ./formats/python
 	cd formats/python && PM_BIN=$(abspath $(BIN)) $(CURDIR)/target/python/bin/python -m unittest
 
+test-cluster: programs ## A sweep on a private Slurm of two nodes on this machine: a step cancelled, a node killed, equal bytes (needs slurmd)
+	@if ! PATH=$$PATH:/usr/sbin command -v slurmctld slurmd munged srun > /dev/null; then \
+	    echo "make test-cluster needs Slurm: apt-get install --no-install-recommends slurmctld slurmd slurm-client munge" >&2; exit 1; fi
+	scripts/cluster/with-slurm.sh scripts/cluster/test.sh
+
 check: ## Formatting and lints
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --release -- -D warnings
@@ -123,9 +131,47 @@ stability: ## Photon maps under stress: out/stability.txt, a table of structures
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man
-	for program in photons queries reorder sample gather cachesim chart view scene picture sweep; do \
-	    $(BIN)/pm-$$program --generate man > out/man/pm-$$program.1 || exit 1; \
-	done
+	for program in $(NAMES); do $(BIN)/$$program --generate man > out/man/$$program.1 || exit 1; done
+
+options: programs ## The pages of options, tools/programs/options, written anew from the programs
+	for program in $(NAMES); do $(BIN)/$$program --generate options > tools/programs/options/$$program.md || exit 1; done
+
+# ---- make install, make dist -------------------------------------------------------------------------------------------
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+
+install: programs ## PREFIX=/usr/local: the programs, their manual pages, and completions for bash, zsh and fish
+	$(call put,$(BIN),$(DESTDIR)$(PREFIX))
+
+# $(call put,PROGRAMS,WHERE): programs from a folder, and what they generate, below another.
+define put
+@install -d '$2/bin' '$2/share/man/man1' '$2/share/bash-completion/completions' '$2/share/zsh/site-functions' '$2/share/fish/vendor_completions.d'
+@set -e; for program in $(NAMES); do \
+    install -m 755 $1/$$program '$2/bin'; \
+    $(BIN)/$$program --generate man > '$2/share/man/man1'/$$program.1; \
+    $(BIN)/$$program --generate bash > '$2/share/bash-completion/completions'/$$program; \
+    $(BIN)/$$program --generate zsh > '$2/share/zsh/site-functions'/_$$program; \
+    $(BIN)/$$program --generate fish > '$2/share/fish/vendor_completions.d'/$$program.fish; \
+done; echo "$(words $(NAMES)) programs, manual pages and completions in $2"
+endef
+
+STATIC := x86_64-unknown-linux-musl
+DIST = pm-$(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)-$(STATIC)
+
+dist: programs ## out/dist/*.tar.gz: all programs without libraries of the system's, for any Linux on x86-64
+	@rustc --print target-libdir --target $(STATIC) 2>/dev/null | xargs -r test -d && command -v musl-gcc >/dev/null || { \
+	    echo "make dist needs the target $(STATIC) (rustup target add $(STATIC)) and musl-gcc (the package musl-tools)" >&2; exit 1; }
+	$(CARGO) build --release -p pm-programs --bins --target $(STATIC)
+	@rm -rf out/dist/$(DIST)
+	$(call put,target/$(STATIC)/release,out/dist/$(DIST))
+	@cp README.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md out/dist/$(DIST)
+	@tar -C out/dist --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -c $(DIST) | gzip -9n > out/dist/$(DIST).tar.gz
+	@ls -l out/dist/$(DIST).tar.gz
+
+clean-streams: ## Remove the streams in out/ that rows were made of; the rows stay, and nothing is made again
+	@if [ -x $(BIN)/pm-sweep ] && [ -d out ]; then $(BIN)/pm-sweep hold out --by $$PPID --what 'make clean-streams'; fi
+	rm -rf out/streams
 
 clean: ## Remove out/
 	@if [ -x $(BIN)/pm-sweep ] && [ -d out ]; then $(BIN)/pm-sweep hold out --by $$PPID --what 'make clean'; fi

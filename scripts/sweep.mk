@@ -37,7 +37,7 @@ inputs = $(filter-out out/.made/%,$^)
 
 # Made each time, since a variable may have another value; left alone when nothing changed, or make would begin anew. They need
 # the programs, and one make at a time has the folder.
-PLAIN := help programs test check man stability clean
+PLAIN := help programs test test-cluster check man options install dist stability clean clean-streams
 ifneq ($(filter-out $(PLAIN),$(MAKECMDGOALS)),)
 out/rules.mk: $(if $(MAKE_RESTARTS),,programs always)
 	@mkdir -p $(@D)
