@@ -1,6 +1,8 @@
 //! Terminal refused, `-` accepted, `| head` quiet, exit codes as written, help that helps?
 
+mod advice;
 mod help;
+mod options;
 mod reader_gone;
 mod report;
 mod terminal;

@@ -144,7 +144,10 @@ fn what_is_no_whole_stream_is_refused_by_every_reader() {
                     .into_iter()
                     .filter(|other| *other != kind)
                 {
-                    refuses(other.plural(), &specimen(other));
+                    // Asked wrongly: the stream is whole, and named where another belongs.
+                    let outcome = folder.feed(reader, &specimen(other));
+                    let _ = outcome.fails(2);
+                    assert!(outcome.stdout.is_empty() || check(&outcome.stdout).is_err(), "{reader}: {other:?}");
                 }
             }
         }
@@ -164,7 +167,10 @@ fn the_message_tells_how_far_it_got_and_what_to_do() {
     folder.write("half.pmt", &trace[..trace.len() / 2]);
     assert!(folder.run("pm-cachesim half.pmt").fails(3).contains("half.pmt"));
     assert!(folder.run("pm-view --check map.pmp half.pmt").stderr.contains("half.pmt"));
-    assert!(folder.run("pm-gather q.pmq map.pmp").fails(3).contains("q.pmq: the stream holds queries, but photons"));
+    // A stream of another kind is not damaged: it was named in the wrong place.
+    let swapped = folder.run("pm-gather q.pmq map.pmp");
+    assert!(swapped.fails(2).contains("q.pmq: the stream holds queries, but photons"), "{}", swapped.stderr);
+    assert!(swapped.stderr.contains("pm-gather PHOTONS QUERIES"), "{}", swapped.stderr);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod approximate;
 mod charts;
 mod circles;
 mod cli;
+mod columns;
 mod curves;
 mod damage;
 mod estimates;

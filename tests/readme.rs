@@ -4,6 +4,7 @@ mod page;
 
 use crate::support::{Folder, PROGRAMS};
 use page::{Page, Script, root};
+use pm_pictures::{PictureFormat, Preview};
 use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -32,6 +33,7 @@ const NOT_RUN: &[(&str, &str, &str)] = &[
     ("scripts/README.md", "salloc ", "needs a cluster"),
     ("tests/data/", "", "needs other simulators"),
     ("tools/card/", "", "needs a card"),
+    ("tools/programs/options/", "", "made of the helps, whose examples `cli/help.rs` runs"),
 ];
 
 /// What a page supposes its reader to have, made by these commands before its first.
@@ -42,7 +44,7 @@ const HAD: &[(&str, &str)] = &[(
      pm-view --export raw64 hilbert.pmt -o addresses.bin; zstd -q addresses.bin -o addresses.bin.zst
      pm-view --export csv hilbert.pmt -o addresses.csv
      printf 'x,y,z,power_r,power_g,power_b,from_x,from_y,from_z,n_x,n_y,n_z\\n0.213,0,1.471,52.1,38.6,12.4,0.1,0.99,-0.05,0,1,0\\n' > photons.csv
-     head -c 280 /dev/zero > points.raw",
+     (head -c 16 /dev/zero; printf '\\000\\000\\200\\077'; head -c 8 /dev/zero) > points.raw",
 )];
 
 fn pages_of(folder: &str) -> Vec<Page> {
@@ -204,7 +206,14 @@ fn the_picture_is_made_by_the_command_below_it() {
     let folder = Folder::new();
     folder.sh(&format!("{command} -q")).ok();
     let shown = fs::read(root().join("scenes/cornell.png")).expect("the picture");
-    assert!(folder.read("cornell.png") == shown, "scenes/cornell.png is not what `{command}` makes");
+    let [made, shown] = [folder.read("cornell.png"), shown]
+        .map(|png| Preview::decode(PictureFormat::Png, &png, 0.0).expect("a picture"));
+    assert_eq!(made.size, shown.size);
+    // The last bits of estimates may change, and a level of the preview with them.
+    let differ = |(a, b): &(&[u8; 3], &[u8; 3])| (0..3).any(|channel| a[channel].abs_diff(b[channel]) > 1);
+    let differing = made.pixels.iter().zip(&shown.pixels).filter(differ).count();
+    let few = made.pixels.len() / 100;
+    assert!(differing <= few, "scenes/cornell.png is not what `{command}` makes: {differing} pixels differ");
 }
 
 #[test]

@@ -110,6 +110,55 @@ fn two_pictures_are_compared() {
     let _ = folder.run("pm-view --check a.exr").fails(2);
 }
 
+#[test]
+fn a_difference_is_drawn() {
+    let folder = Folder::new();
+    exr(&folder, "a.exr", [6, 4], 0.25);
+    let mut picture = Picture::black([6, 4]);
+    picture.pixels.fill([0.25, 0.5, 1.0]);
+    picture.pixels[8] = [0.75, 0.0, 1.0];
+    folder.write("b.exr", picture.encode(PictureFormat::Exr, "pm 0.1", &[]).unwrap());
+    // The table is printed, wherever the picture goes.
+    let printed = folder.run("pm-view a.exr b.exr").ok();
+    assert!(printed.text().contains("pixels       24, of which 1 differ\n"), "{}", printed.text());
+    assert!(printed.text().lines().count() <= 8 && printed.text().lines().all(|line| line.len() < 100));
+    for file in ["diff.png", "diff.exr"] {
+        let drawn = folder.run(&format!("pm-view a.exr b.exr -o {file}")).ok();
+        same_text(file, printed.text(), drawn.text());
+    }
+    let difference = Picture::decode_exr(&folder.read("diff.exr")).unwrap();
+    let at = |pixel: usize| difference.pixels[pixel];
+    assert_eq!((at(8), at(0), at(23)), ([0.5, 0.5, 0.0], [0.0; 3], [0.0; 3]));
+    let flip = pm_pictures::Preview::decode(PictureFormat::Png, &folder.read("diff.png"), 0.0).unwrap();
+    let brightness = |pixel: &[u8; 3]| pixel.iter().map(|&level| u32::from(level)).sum::<u32>();
+    let brightest = flip.pixels.iter().enumerate().max_by_key(|(_, pixel)| brightness(pixel)).unwrap();
+    assert_eq!(brightest.0, 8);
+    // Of the same picture nothing is to be seen.
+    folder.run("pm-view -q a.exr a.exr -o same.png").ok();
+    let same = pm_pictures::Preview::decode(PictureFormat::Png, &folder.read("same.png"), 0.0).unwrap();
+    assert!(same.pixels.iter().all(|pixel| *pixel == [0; 3]));
+}
+
+#[test]
+fn streams_that_were_compressed_as_a_whole_are_read() {
+    let folder = Folder::with_streams();
+    for name in ["map.pmp", "q.pmq"] {
+        folder.write(&format!("{name}.zst"), zstd::encode_all(&folder.read(name)[..], 3).unwrap());
+    }
+    let plain = folder.run("pm-gather map.pmp q.pmq").ok().stdout;
+    let packed = folder.run("pm-gather map.pmp.zst q.pmq.zst").ok().stdout;
+    assert_eq!(check(&packed).unwrap(), check(&plain).unwrap());
+    let of = |line: &str| folder.run(line).ok().text().replace(".zst", "");
+    same_text("view", &of("pm-view --records=5 map.pmp"), &of("pm-view --records=5 map.pmp.zst"));
+    folder.write("t.pmt.zst", zstd::encode_all(&plain[..], 3).unwrap());
+    folder.write("t.pmt", &plain);
+    same_text("cachesim", &of("pm-cachesim t.pmt"), &of("pm-cachesim t.pmt.zst"));
+    same_text("check", &of("pm-view --check t.pmt"), &of("pm-view --check t.pmt.zst"));
+    let cut = &folder.read("map.pmp.zst")[..3000];
+    folder.write("cut.zst", cut);
+    assert!(folder.run("pm-view --check cut.zst").fails(3).contains("(zstd) is damaged or cut"));
+}
+
 /// Moves the data window of an EXR file to the right.
 fn shifted(mut bytes: Vec<u8>, by: i32) -> Vec<u8> {
     let name = b"dataWindow\0box2i\0\x10\0\0\0";

@@ -2,6 +2,7 @@
 
 use super::asked_wrongly;
 use crate::support::{Folder, PROGRAMS};
+use std::path::Path;
 
 #[test]
 fn short_help_fits_a_screen() {
@@ -61,6 +62,36 @@ fn the_examples_are_asked_rightly() {
     assert!(folder.names().is_empty());
 }
 
+/// A line of examples after another in a folder that has what they read; pictures and streams are small.
+#[test]
+fn the_examples_do_what_they_say() {
+    let folder = Folder::with_streams();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    std::fs::create_dir(folder.path("scenes")).expect("a folder");
+    for (name, of) in [
+        ("cornell-diffuse.obj", "cornell.obj"),
+        ("cornell.mtl", "cornell.mtl"),
+        ("cornell-diffuse.camera.toml", "cornell.camera.toml"),
+    ] {
+        std::fs::copy(scenes.join(of), folder.path("scenes").join(name)).expect("a file");
+    }
+    folder.sh(include_str!("examples.sh")).ok();
+    let mut run = 0;
+    for (program, _) in PROGRAMS {
+        let help = folder.run(&format!("{program} --help")).ok();
+        let (_, end) = help.text().split_once("\nExamples:\n").expect("examples");
+        let (examples, _) = end.split_once("\nExit codes:\n").expect("exit codes");
+        let unwrapped = examples.replace("\n  pm-", "\0pm-").replace('\n', " ");
+        for line in unwrapped.trim().split('\0') {
+            // Shadows of the programs that are slow otherwise stand before them in the path.
+            let outcome = folder.sh(&format!("PROGRAMS=${{PATH%%:*}}; export PROGRAMS PATH=$PWD/small:$PATH; {line}"));
+            assert_eq!(outcome.code, 0, "`{line}`\n{}", outcome.stderr);
+            run += 1;
+        }
+    }
+    assert!(run >= 28, "only {run} examples");
+}
+
 #[test]
 fn versions_say_what_ran() {
     let folder = Folder::new();
@@ -80,7 +111,8 @@ fn manual_pages_and_completions_are_generated() {
     for (program, _) in PROGRAMS {
         let generate = |what: &str| folder.run(&format!("{program} --generate {what}")).ok().text().to_owned();
         let man = generate("man");
-        assert!(man.contains(&format!(".TH {program} 1")) && man.contains("Exit codes"), "{man}");
+        assert!(man.contains(&format!(".TH {program} 1")) && man.contains(".SH \"EXIT CODES\""), "{man}");
+        assert!(man.contains(".SH EXAMPLES\n"), "{man}");
         assert!(generate("zsh").starts_with(&format!("#compdef {program}")));
         assert!(generate("fish").contains(&format!("complete -c {program} ")));
         folder.write("completion", generate("bash"));

@@ -81,7 +81,9 @@ fn all_formats_have_the_same_values() {
 
     // The table is for reading: fewer columns, two spaces or more between them, long names in two lines, ratios to five
     // digits.
+    // Traces of one order are told apart by their names.
     let shown = [
+        "trace",
         "order",
         "cache",
         "queries",
@@ -95,7 +97,8 @@ fn all_formats_have_the_same_values() {
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), csv.len() + 1);
     let head: Vec<String> = lines[..2].join(" ").split_whitespace().map(str::to_owned).collect();
-    let expected = "reads fetches fetches order cache queries fetches bytes_fetched per_query per_query per_block";
+    let expected =
+        "reads fetches fetches trace order cache queries fetches bytes_fetched per_query per_query per_block";
     assert_eq!(head.join(" "), expected);
     let places: Vec<usize> = shown.map(|name| csv[0].iter().position(|known| known == name).expect(name)).to_vec();
     let csv: Vec<Vec<&String>> = csv.iter().map(|row| places.iter().map(|&at| &row[at]).collect()).collect();

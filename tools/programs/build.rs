@@ -66,7 +66,7 @@ fn list(path: &Path, files: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(path).into_iter().flatten().flatten() {
             list(&entry.path(), files);
         }
-    } else if path.is_file() && !name.ends_with(".md") && !name.starts_with('.') {
+    } else if path.is_file() && ![".md", ".png"].iter().any(|ending| name.ends_with(ending)) && !name.starts_with('.') {
         files.push(path.to_owned());
     }
 }

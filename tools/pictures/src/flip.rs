@@ -34,9 +34,18 @@ pub struct HdrFlip {
 /// If they are not of the same size.
 #[must_use]
 pub fn ldr_flip(reference: &Picture, test: &Picture, pixels_per_degree: f64) -> f64 {
+    mean(&ldr_flip_map(reference, test, pixels_per_degree))
+}
+
+/// The same pixel by pixel, 0 (the same) to 1.
+///
+/// # Panics
+/// If they are not of the same size.
+#[must_use]
+pub fn ldr_flip_map(reference: &Picture, test: &Picture, pixels_per_degree: f64) -> Vec<f32> {
     let filters = Filters::new(pixels_per_degree);
     let [reference, test] = [reference, test].map(|picture| Seen::new(picture, &filters, |x| x));
-    mean(&difference(&reference, &test))
+    difference(&reference, &test)
 }
 
 /// Mean FLIP of the radiance of two pictures: in each pixel the largest over exposures a stop or less apart, from that

@@ -11,6 +11,7 @@
 
 mod compare;
 mod describe;
+mod difference;
 mod error;
 mod exr_image;
 mod file;
@@ -27,8 +28,9 @@ mod size;
 
 pub use compare::{Comparison, REL_MSE_EPSILON};
 pub use describe::{Channel, Description};
+pub use difference::{absolute_difference, heat};
 pub use error::{PictureError, Result};
-pub use flip::{HdrFlip, PIXELS_PER_DEGREE, hdr_flip, ldr_flip};
+pub use flip::{HdrFlip, PIXELS_PER_DEGREE, hdr_flip, ldr_flip, ldr_flip_map};
 pub use format::PictureFormat;
 pub use frame::Frame;
 pub use picture::Picture;

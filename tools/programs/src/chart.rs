@@ -17,6 +17,7 @@ use std::path::Path;
 /// # Errors
 /// If it was asked wrongly, a table cannot be read or drawn, or the output cannot be written.
 pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    check_ending(&args)?;
     let text = match &args.page {
         Some(path) => page::described(path)?,
         None if args.output.output.as_ref().is_some_and(|path| path.extension().is_some_and(|e| e == "html")) => {
@@ -27,6 +28,21 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut output = args.output.create()?;
     output.write_all(text.as_bytes())?;
     output.commit()
+}
+
+/// Refuses a file whose name promises something else than what is in it.
+fn check_ending(args: &Args) -> anyhow::Result<()> {
+    let Some(path) = &args.output.output else { return Ok(()) };
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let (may, what) = match &args.page {
+        Some(_) => (&["html", "htm"][..], "a page is HTML: name it *.html"),
+        None => (&["svg", "html"][..], "a chart is SVG, or a page with it: name it *.svg or *.html"),
+    };
+    match ending.filter(|ending| !may.contains(&&**ending)) {
+        Some(_) if path.exists() && !path.is_file() => Ok(()),
+        Some(_) => Err(usage(format!("{}: {what}", path.display()))),
+        None => Ok(()),
+    }
 }
 
 /// An error of a report as one of the program; what the table holds is not the asker's fault, what is asked for is.

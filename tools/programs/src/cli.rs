@@ -1,10 +1,12 @@
 //! How every pm program behaves: arguments, input and output, messages, exit codes.
 
+mod advice;
 mod choice;
 mod chooser;
 pub(crate) mod claims;
 mod entry;
 mod error;
+mod generate;
 mod input;
 mod outcome;
 mod output;

@@ -49,6 +49,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     args.check()?;
     let Args { first, rest, .. } = &args;
     let photons = Photons::read(&first.photons)?;
+    args.check_photons(photons.records.len())?;
     let mut blocks = queries::open(&args)?;
     let query_header = blocks.header().clone();
     if !rest.anyway {

@@ -5,7 +5,7 @@ mod collect;
 
 pub use args::Args;
 
-use crate::cli::{Progress, Typed};
+use crate::cli::{Progress, Typed, usage};
 use crate::setting::header;
 use anyhow::ensure;
 use collect::{Collected, Traced};
@@ -25,6 +25,9 @@ const HOPELESS: u64 = 1 << 22;
 /// # Errors
 /// If it was asked wrongly, the scene cannot be loaded or stores no photon, or the output cannot be written.
 pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
+    if args.number == 0 && !args.scene.verbose {
+        return Err(usage("-n 0 stores no photon: give at least 1, or -v to see the materials alone"));
+    }
     let scene = args.scene.load(&args.common)?;
     let mut header = header(&scene);
     header.expected_records = Some(args.number);

@@ -12,6 +12,7 @@ use crate::setting;
 use args::Args;
 use base::{Base, Exposure};
 use cast::Casting;
+use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, CommandFactory, FromArgMatches};
 use guide::GuidePhotons;
 use pm_formats::vocabulary::{meaning, measure};
@@ -34,9 +35,17 @@ pub fn program(orders: &Registry<dyn GenerativeOrder>) -> Program<Asked> {
     let order = Arg::new("order").long("order").value_name("ORDER").help("Order in which the pixels are visited");
     let chooser = Chooser::option(orders, order);
     let command = chooser.add_parameters(chooser.add_word(Args::command()));
-    Program::new("pm-queries", command, move |matches| {
+    let program = Program::new("pm-queries", command, move |matches| {
         Ok(Asked { args: Args::from_arg_matches(matches)?, order: chooser.read(matches)? })
-    })
+    });
+    program.advising(deferred_order)
+}
+
+/// Who asks for an order that queries are put into afterwards is told by which program.
+fn deferred_order(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidValue) else { return None };
+    let order = pm_orders::orders().find(word).ok()?.word();
+    Some(format!("queries are put into the order {order} afterwards: pm-queries | pm-reorder {order}"))
 }
 
 /// Does what was asked.

@@ -54,9 +54,12 @@ pub struct CameraArgs {
 /// If it is none.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    parsed
-        .filter(|&[w, h]: &[u32; 2]| w > 0 && h > 0 && u64::from(w) * u64::from(h) <= MAX_PIXELS)
-        .ok_or_else(|| "a size such as 512x512 is expected, of at most 2^28 pixels".into())
+    parsed.filter(|&[w, h]: &[u32; 2]| w > 0 && h > 0 && u64::from(w) * u64::from(h) <= MAX_PIXELS).ok_or_else(|| {
+        match text.parse::<u32>() {
+            Ok(side) if side > 0 => format!("width and height are expected, such as {side}x{side}"),
+            _ => "a size such as 512x512 is expected, of at most 2^28 pixels".into(),
+        }
+    })
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {

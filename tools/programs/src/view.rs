@@ -53,13 +53,20 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if !args.mean.is_empty() && pictures < args.streams.len() {
         return Err(usage("--mean measures .exr pictures"));
     }
+    if let Some(preview) = args.streams.iter().find(|path| pictures::is_preview(path)) {
+        return Err(usage(format!(
+            "{}: PNG previews have lost what is compared; give the .exr pictures (--sheet takes both)",
+            preview.display()
+        )));
+    }
     let of_streams = args.history || args.check || args.records.is_some();
     if args.mean.is_empty() && pictures > 0 && (pictures > 2 || pictures < args.streams.len() || of_streams) {
         return Err(usage(
             "pictures are described one at a time or compared two at a time, without other options; --mean and --sheet take more",
         ));
     }
-    let mut output = create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?;
+    let of_the_table = args.output.output.as_deref().filter(|_| pictures != 2 || !pictures::wants_difference(&args));
+    let mut output = create_output(of_the_table.unwrap_or(Path::new("-")))?;
     match &args.streams[..] {
         _ if !args.mean.is_empty() => pictures::measure(&args, &mut output)?,
         [picture] if pictures == 1 => pictures::describe(picture, &mut output)?,

@@ -76,9 +76,9 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  pm-cachesim --sizes 4K,32K,256K,2M --format csv *.pmt | pm-chart -x size -y fetches_per_query --by order -o sizes.svg
+  pm-cachesim --sizes 4K,32K,256K,2M --format csv *.pmt | pm-chart -x cache_bytes -y fetches_per_query --by order -o sizes.svg
   pm-chart -x ways -y fetches --by order --title 'What associativity costs' ways.csv -o ways.svg
-  pm-chart -x storage -y total_bytes --by order --points --frontier frontier.csv -o frontier.html
+  pm-chart -x order_bytes_on_chip -y total_bytes --by order --points --frontier orders.csv -o frontier.html
   pm-chart --page report.toml -o report.html";
 
 fn only(text: &str) -> Result<(String, String), String> {

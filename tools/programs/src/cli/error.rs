@@ -28,7 +28,12 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> (u8, Option<String>) {
         }
     }
     let found = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    let code = if found(|cause| cause.is::<UsageError>() || cause.is::<ParameterError>() || cause.is::<BadQuestion>()) {
+    let wrong_kind = |cause: &(dyn std::error::Error + 'static)| {
+        matches!(cause.downcast_ref(), Some(pm_formats::Error::WrongKind { .. }))
+    };
+    let code = if found(wrong_kind)
+        || found(|cause| cause.is::<UsageError>() || cause.is::<ParameterError>() || cause.is::<BadQuestion>())
+    {
         2
     } else if is_bad_input(&error)
         || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))

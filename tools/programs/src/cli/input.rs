@@ -3,23 +3,60 @@
 use super::claims;
 use super::usage::usage;
 use anyhow::Context as _;
+use pm_exchange::BadInput;
 use pm_formats::{BlockReader, End, Header, Record, RecordReader, Tally};
 use std::fs::File;
-use std::io::{self, BufReader, IsTerminal as _, Read};
+use std::io::{self, BufRead as _, BufReader, IsTerminal as _, Read};
 use std::os::fd::AsFd as _;
 use std::path::Path;
 
 /// An input stream that names itself in its errors.
 pub struct Input {
     name: String,
-    file: BufReader<File>,
+    file: Source,
 }
+
+/// Where the bytes come from.
+enum Source {
+    Plain(BufReader<File>),
+    /// A file that was compressed as a whole.
+    Zstd(BufReader<zstd::stream::read::Decoder<'static, BufReader<File>>>),
+}
+
+/// RFC 8878, section 3.1.1: how a zstd frame begins.
+const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
 
 impl Read for Input {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.file.read(buffer).map_err(|error| io::Error::new(error.kind(), format!("cannot read: {error}")))
+        match &mut self.file {
+            Source::Plain(file) => {
+                file.read(buffer).map_err(|error| io::Error::new(error.kind(), format!("cannot read: {error}")))
+            }
+            Source::Zstd(file) => file.read(buffer).map_err(|error| {
+                let text = format!("the compressed input (zstd) is damaged or cut: {error}");
+                io::Error::new(io::ErrorKind::InvalidData, BadInput::new(text))
+            }),
+        }
     }
 }
+
+impl Input {
+    /// The same, decompressed if it is compressed by zstd.
+    fn decompressed(self) -> io::Result<Self> {
+        let Self { name, file: Source::Plain(mut file) } = self else { return Ok(self) };
+        let unread = |error: io::Error| io::Error::new(error.kind(), format!("cannot read: {error}"));
+        let file = if file.fill_buf().map_err(unread)?.starts_with(ZSTD) {
+            let decoder = zstd::stream::read::Decoder::with_buffer(file)?;
+            Source::Zstd(BufReader::with_capacity(CAPACITY, decoder))
+        } else {
+            Source::Plain(file)
+        };
+        Ok(Self { name, file })
+    }
+}
+
+/// Bytes read at once.
+const CAPACITY: usize = 1 << 18;
 
 /// How an input is called in messages.
 #[must_use]
@@ -32,7 +69,8 @@ pub fn named(path: &Path) -> String {
 /// # Errors
 /// If there is no such file, if a terminal would have to type the stream, or if the header is not one of ours.
 pub fn open_input(path: &Path) -> anyhow::Result<BlockReader<Input>> {
-    BlockReader::new(open_bytes(path)?).with_context(|| named(path))
+    let input = open_bytes(path)?.decompressed().with_context(|| named(path))?;
+    BlockReader::new(input).with_context(|| named(path))
 }
 
 /// Opens an input, whatever it holds.
@@ -55,7 +93,7 @@ pub fn open_bytes(path: &Path) -> anyhow::Result<Input> {
     if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
         return Err(usage(format!("{name} is a folder; a stream is expected")));
     }
-    Ok(Input { name, file: BufReader::with_capacity(1 << 18, file) })
+    Ok(Input { name, file: Source::Plain(BufReader::with_capacity(CAPACITY, file)) })
 }
 
 /// A stream of records that was read to its end.

@@ -1,6 +1,6 @@
 //! How a run ended: what is said on standard error, and the exit code.
 
-use super::{error, say};
+use super::{advice, error, say};
 use std::process::ExitCode;
 
 /// How a run of a program ended.
@@ -26,9 +26,18 @@ impl Outcome {
             return Self { code: 0, said: vec![], help: Some(error) };
         }
         let message = error.render().to_string();
-        let lines = message.lines().filter(|line| !line.trim().is_empty());
-        let said = lines.map(|line| line.strip_prefix("error: ").unwrap_or(line).to_owned()).collect();
+        // The parser's tip for what it takes for an option is right for files only.
+        let is_said = |line: &&str| !line.trim().is_empty() && !line.contains(" as a value, use '-- ");
+        let lines = message.lines().filter(is_said);
+        let mut said: Vec<String> = lines.map(|line| line.strip_prefix("error: ").unwrap_or(line).to_owned()).collect();
+        said.splice(said.len().min(1)..said.len().min(1), advice::on(&error));
         Self { code: 2, said, help: None }
+    }
+
+    /// The same with a line more.
+    pub(super) fn with(mut self, advice: Option<String>) -> Self {
+        self.said.extend(advice);
+        self
     }
 
     /// The person who asked has to ask otherwise.

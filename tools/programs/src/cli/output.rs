@@ -89,6 +89,12 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
     }
     claims::write(&path)?;
     let folder = folder_of(&path);
+    if !folder.is_dir() {
+        return Err(anyhow::anyhow!(
+            "cannot write {name}: No such file or directory: make the folder {} first",
+            folder.display()
+        ));
+    }
     // A new file gets what the umask leaves, an old one keeps its permissions.
     let mode = existing.as_ref().map_or(0o666, |metadata| metadata.permissions().mode());
     // Held until the file is listed: a signal in between waits, and takes the file with it.

@@ -1,13 +1,11 @@
 //! A program from its command line to its exit code, in a process of its own or in a test.
 
+use super::generate::{generate, generate_argument};
 use super::outcome::Outcome;
-use super::{EXIT_CODES, LONG_VERSION, PROGRAM, Typed, VERSION, claims, create_output, signals, typed};
-use clap::{ArgMatches, Command, CommandFactory, FromArgMatches};
+use super::{EXIT_CODES, LONG_VERSION, PROGRAM, Typed, VERSION, claims, signals, typed};
+use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
-use std::io::Write as _;
-use std::path::Path;
 use std::process::ExitCode;
-use std::str::FromStr as _;
 
 /// How what was typed is understood.
 type Read<A> = dyn FnOnce(&ArgMatches) -> Result<A, clap::Error>;
@@ -17,6 +15,7 @@ pub struct Program<A> {
     name: &'static str,
     command: Command,
     read: Box<Read<A>>,
+    advise: fn(&clap::Error) -> Option<String>,
 }
 
 impl<A: CommandFactory + FromArgMatches + 'static> Program<A> {
@@ -36,13 +35,23 @@ impl<A> Program<A> {
         read: impl FnOnce(&ArgMatches) -> Result<A, clap::Error> + 'static,
     ) -> Self {
         let examples = command.get_after_help().map_or(String::new(), |examples| examples.to_string());
+        // A program of commands is asked for one of them.
+        let generate = (!command.has_subcommands()).then(generate_argument);
         let command = command
             .name(name)
             .version(VERSION)
             .long_version(LONG_VERSION)
             .max_term_width(100)
+            .args(generate)
+            .mut_args(with_negative_numbers)
             .after_long_help(format!("{examples}\n\n{EXIT_CODES}"));
-        Self { name, command, read: Box::new(read) }
+        Self { name, command, read: Box::new(read), advise: |_| None }
+    }
+
+    /// What is said besides where arguments are not understood.
+    #[must_use]
+    pub fn advising(self, advise: fn(&clap::Error) -> Option<String>) -> Self {
+        Self { advise, ..self }
     }
 
     /// Runs it as a process: with the arguments of the process, and its outcome told to whoever started it.
@@ -58,39 +67,35 @@ impl<A> Program<A> {
         arguments: impl IntoIterator<Item = T>,
         run: impl FnOnce(A, &Typed) -> anyhow::Result<()>,
     ) -> Outcome {
-        let Self { name, command, read } = self;
+        let Self { name, command, read, advise } = self;
         claims::clear();
         let raw: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
-        if let [flag, what] = &raw[..]
-            && flag == "--generate"
-        {
-            return generate(command, name, &what.to_string_lossy());
+        if let Some(what) = to_generate(&raw) {
+            return generate(command, name, &what);
         }
         let typed = Typed { program: name, arguments: typed::lasting_arguments(&command, &raw) };
         let matches = command.try_get_matches_from(std::iter::once(OsString::from(name)).chain(raw));
         match matches.and_then(|matches| read(&matches)) {
             Ok(arguments) => Outcome::of(run(arguments, &typed)),
-            Err(error) => Outcome::answered(error),
+            Err(error) => {
+                let advice = advise(&error);
+                Outcome::answered(error).with(advice)
+            }
         }
     }
 }
 
-/// Prints a manual page or shell completions made from the arguments' own definition.
-fn generate(mut command: Command, program: &str, what: &str) -> Outcome {
-    let mut text = Vec::new();
-    let done = match what {
-        "man" => clap_mangen::Man::new(command).render(&mut text),
-        "bash" | "zsh" | "fish" => {
-            let shell = clap_complete::Shell::from_str(what).expect("one of the names above");
-            clap_complete::generate(shell, &mut command, program, &mut text);
-            Ok(())
-        }
-        _ => return Outcome::asked_wrongly(format!("--generate {what}: one of man, bash, zsh, fish was expected")),
-    };
-    let done = done.map_err(Into::into).and_then(|()| {
-        let mut output = create_output(Path::new("-"))?;
-        output.write_all(&text)?;
-        output.commit()
-    });
-    Outcome::of(done)
+/// What is to be generated, if nothing else is asked: whatever arguments the program needs, they are not needed for that.
+fn to_generate(raw: &[OsString]) -> Option<String> {
+    match raw {
+        [flag, what] if flag == "--generate" => Some(what.to_string_lossy().into_owned()),
+        [one] => one.to_string_lossy().strip_prefix("--generate=").map(str::to_owned),
+        _ => None,
+    }
+}
+
+/// What looks like a negative number behind an option is its value, to be taken or refused as such.
+fn with_negative_numbers(argument: Arg) -> Arg {
+    let takes_value = argument.get_action().takes_values() && !argument.is_positional();
+    if takes_value { argument.allow_negative_numbers(true) } else { argument }
 }

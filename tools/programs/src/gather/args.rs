@@ -1,6 +1,7 @@
 //! What `pm-gather` may be asked.
 
-use crate::cli::{Chooser, Common, OutputArgs, choice, picture_format, usage};
+use crate::cli::{Chooser, Common, OutputArgs, choice, named, picture_format, usage};
+use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches as _};
 use pm_formats::Header;
 use pm_formats::vocabulary::meaning;
@@ -17,6 +18,8 @@ pub(super) struct Args {
     pub(super) hurry: bool,
     /// Is a trace to be written?
     pub(super) trace: bool,
+    /// Was the number of photons of a search typed?
+    k_is_typed: bool,
     pub(super) first: First,
     pub(super) rest: Rest,
 }
@@ -156,7 +159,9 @@ pub(super) fn command(
         let trace = rest.writes_trace();
         let unseen = !trace && rest.report.is_none() && !rest.reread;
         let of: &[&dyn Structure] = if unseen { &[fastest(), usual] } else { &[usual] };
-        Ok(Args { map: maps.read_or_choose(matches, of)?, hurry: unseen && maps.is_left(matches), trace, first, rest })
+        let (map, hurry) = (maps.read_or_choose(matches, of)?, unseen && maps.is_left(matches));
+        let k_is_typed = matches.value_source("k") == Some(ValueSource::CommandLine);
+        Ok(Args { map, hurry, trace, k_is_typed, first, rest })
     };
     (command, read)
 }
@@ -184,6 +189,15 @@ impl Args {
     /// Number of photons of a search.
     pub(super) const fn k(&self) -> usize {
         self.rest.k as usize
+    }
+
+    /// Refuses to look for more photons than there are.
+    pub(super) fn check_photons(&self, photons: usize) -> anyhow::Result<()> {
+        if self.k_is_typed && photons > 0 && self.k() > photons {
+            let name = named(&self.first.photons);
+            return Err(usage(format!("-k {}: {name} has {photons} photons; give at most {photons}", self.rest.k)));
+        }
+        Ok(())
     }
 
     /// How much a photon of this stream counts by its distance. Caustics have sharp edges, which a cone blurs less.

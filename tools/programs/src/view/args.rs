@@ -23,7 +23,8 @@ use std::path::PathBuf;
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Streams to look into, or .exr pictures: one, or two to compare; `-` is standard input
+    /// Streams to look into, or .exr pictures: one, or two to compare (`-o` x.png then shows where, by FLIP, x.exr how much);
+    /// `-` is standard input
     #[arg(default_value = "-")]
     pub(super) streams: Vec<PathBuf>,
     /// Print the commands that made the stream, as they could be typed again; reads the header only

@@ -1,9 +1,14 @@
 //! Pictures: one described, two compared, rectangles of any measured, many on a sheet.
 
 use super::{Args, tables};
-use crate::cli::{create_output, describe_picture, named, picture_format, read_framed, read_preview, usage};
+use crate::cli::{
+    create_output, describe_picture, named, picture_format, read_framed, read_preview, usage, write_picture,
+};
 use anyhow::{Context as _, bail};
-use pm_pictures::{Comparison, PictureFormat, contact_sheet, hdr_flip, ldr_flip};
+use pm_pictures::{
+    Comparison, Picture, PictureFormat, absolute_difference, contact_sheet, hdr_flip, heat, ldr_flip, ldr_flip_map,
+};
+use pm_report::Format;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -17,7 +22,29 @@ pub(super) fn describe(picture: &Path, output: &mut impl Write) -> anyhow::Resul
     Ok(tables::picture(&describe_picture(picture)?, output)?)
 }
 
-/// Writes how far `b` is from `a`.
+/// Is it a preview, by its name?
+pub(super) fn is_preview(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+}
+
+/// Does `-o` name a picture of the difference, and not a file for the table?
+pub(super) fn wants_difference(args: &Args) -> bool {
+    args.output.output.as_deref().is_some_and(|path| is_picture(path) || is_preview(path))
+}
+
+/// Writes a picture of the difference: in EXR channel by channel, in PNG what FLIP sees of the previews.
+fn draw_difference(path: &Path, [a, b]: [&Picture; 2], args: &Args) -> anyhow::Result<()> {
+    let mut output = create_output(path)?;
+    if is_picture(path) {
+        write_picture(&absolute_difference(a, b), path, &mut output, &[])?;
+    } else {
+        let map = ldr_flip_map(&a.exposed(args.exposure), &b.exposed(args.exposure), args.pixels_per_degree);
+        output.write_all(&heat(a.size, &map).encode_png()?)?;
+    }
+    output.commit()
+}
+
+/// Writes how far `b` is from `a`, and a picture of it if `-o` names one.
 pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) -> anyhow::Result<()> {
     let [(x, frame), (y, its)] = [read_framed(a)?, read_framed(b)?];
     let comparison = Comparison::new(&x, &y)?;
@@ -40,7 +67,13 @@ pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) 
         hdr: hdr_flip(&x, &y, args.pixels_per_degree).mean,
         pixels_per_degree: args.pixels_per_degree,
     };
-    Ok(tables::comparison(&named(a), &named(b), &comparison, &flips).write(args.format, output)?)
+    if let Some(path) = args.output.output.as_deref().filter(|_| wants_difference(args)) {
+        draw_difference(path, [&x, &y], args)?;
+    }
+    match args.format {
+        Format::Table => Ok(tables::in_short(&named(a), &named(b), &comparison, &flips, output)?),
+        format => Ok(tables::comparison(&named(a), &named(b), &comparison, &flips).write(format, output)?),
+    }
 }
 
 /// Writes the means of rectangles of all pictures.

@@ -70,6 +70,29 @@ pub(super) fn comparison(a: &str, b: &str, comparison: &Comparison, flips: &Flip
     table
 }
 
+/// Writes a comparison for reading; `a` is the reference.
+pub(super) fn in_short(
+    a: &str,
+    b: &str,
+    comparison: &Comparison,
+    flips: &Flips,
+    output: &mut impl Write,
+) -> io::Result<()> {
+    let Comparison { pixels, not_finite, differing, ratio: [red, green, blue], rmse, rel_mse, mae, largest } =
+        comparison;
+    let Flips { ldr, exposure, hdr, .. } = flips;
+    let odd = if *not_finite == 0 { String::new() } else { format!("; {not_finite} are not finite, and left out") };
+    writeln!(output, "compared     {b} with {a}")?;
+    writeln!(output, "pixels       {pixels}, of which {differing} differ{odd}")?;
+    writeln!(output, "brightness   {red:.5} red, {green:.5} green, {blue:.5} blue: mean over that of {a}")?;
+    writeln!(output, "relMSE       {rel_mse:.4e}")?;
+    writeln!(output, "RMSE         {rmse:.4e}, mean absolute {mae:.4e}, largest {largest:.4e}")?;
+    writeln!(
+        output,
+        "FLIP         {ldr:.4} of the previews at {exposure:+} stops, {hdr:.4} of the radiance (0 is the same)"
+    )
+}
+
 /// A table of regions of pictures, a row for each picture's name and region.
 pub(super) fn regions(found: &[(String, RegionMean)]) -> Table {
     let names = ["x0", "y0", "x1", "y1", "pixels", "not_finite", "r", "g", "b"];
