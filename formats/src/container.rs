@@ -6,6 +6,7 @@ mod end;
 mod header;
 mod kind;
 mod order;
+mod packing;
 mod reader;
 mod section;
 mod spelling;

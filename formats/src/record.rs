@@ -20,6 +20,8 @@ compile_error!("records are little-endian and are read in place: this library ne
 
 /// Most records in a block.
 pub const BLOCK_RECORDS: usize = 4096;
+/// Records whose words are put into columns, or back, at a time.
+const TILE: usize = 128;
 /// zstd level for records: positions hardly compress, so more effort buys nothing.
 const LEVEL: i32 = 1;
 
@@ -38,15 +40,25 @@ pub trait Record: Pod {
 /// # Errors
 /// If the records are too many for a block.
 pub fn encode_records<T: Record>(meta: BlockMeta, records: &[T]) -> Result<(Block, Tally)> {
+    let count = u32::try_from(records.len()).expect("a block's worth of records");
+    let block = Block::encode(BlockMeta { records: count, ..meta }, bytemuck::cast_slice(&columns(records)), LEVEL)?;
+    Ok((block, tally(records)))
+}
+
+/// The words of records, column by column.
+fn columns<T: Record>(records: &[T]) -> Vec<u32> {
     let words_each = size_of::<T>() / 4;
     let words: &[u32] = bytemuck::cast_slice(records);
-    let mut columns: Vec<u32> = Vec::with_capacity(words.len());
-    for column in 0..words_each {
-        columns.extend(words.iter().skip(column).step_by(words_each));
+    let mut columns = vec![0; words.len()];
+    // A few records at a time, which stay near while each column takes its words of them.
+    for (from, tile) in (0..).step_by(TILE).zip(words.chunks(TILE * words_each)) {
+        for (column, values) in columns.chunks_exact_mut(records.len().max(1)).enumerate() {
+            for (value, record) in values[from..].iter_mut().zip(tile.chunks_exact(words_each)) {
+                *value = record[column];
+            }
+        }
     }
-    let count = u32::try_from(records.len()).expect("a block's worth of records");
-    let block = Block::encode(BlockMeta { records: count, ..meta }, bytemuck::cast_slice(&columns), LEVEL)?;
-    Ok((block, tally(records)))
+    columns
 }
 
 /// The records of a block; `None` if the payload does not hold what the block says.
@@ -61,9 +73,11 @@ pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
     block.decode_into(bytemuck::cast_slice_mut(&mut columns))?;
     let mut records = vec![T::zeroed(); count];
     let words: &mut [u32] = bytemuck::cast_slice_mut(&mut records);
-    for (column, values) in columns.chunks_exact(count.max(1)).enumerate() {
-        for (word, value) in words.iter_mut().skip(column).step_by(words_each).zip(values) {
-            *word = *value;
+    for (from, tile) in (0..).step_by(TILE).zip(words.chunks_mut(TILE * words_each)) {
+        for (column, values) in columns.chunks_exact(count.max(1)).enumerate() {
+            for (record, value) in tile.chunks_exact_mut(words_each).zip(&values[from..]) {
+                record[column] = *value;
+            }
         }
     }
     let tally = tally(&records);

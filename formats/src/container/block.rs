@@ -1,6 +1,7 @@
 //! A block: a run of records of one batch, compressed and checksummed.
 
 use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK};
+use super::packing::{compress, decompress};
 use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
@@ -41,7 +42,7 @@ impl Block {
     }
 
     pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        Self::packed(section, meta, payload, |payload| zstd::bulk::compress(payload, level))
+        Self::packed(section, meta, payload, |payload| compress(payload, level))
     }
 
     fn packed(
@@ -66,7 +67,7 @@ impl Block {
             return None;
         }
         if self.compressed {
-            let len = zstd::bulk::decompress_to_buffer(&self.bytes, payload).ok()?;
+            let len = decompress(&self.bytes, payload).ok()?;
             (len == payload.len()).then_some(())
         } else {
             (self.bytes.len() == payload.len()).then(|| payload.copy_from_slice(&self.bytes))

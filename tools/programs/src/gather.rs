@@ -64,30 +64,32 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let images: Vec<(&PathBuf, Output)> =
         rest.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let report = rest.report.as_ref().map(|path| create_output(path)).transpose()?;
-    let estimate = RadianceEstimate::new(
-        &photons.records,
-        &query_header.materials,
-        photons.emitted_paths,
-        options(&args, &photons),
-    )
-    .in_order(map.order());
-    let how = Precomputation {
-        map,
-        search,
-        reread: rest.reread,
-        photons: &photons.records,
-        estimate: &estimate,
-        share: rest.precomputed_share,
-        materials: &query_header.materials,
+    let estimate = (rest.precomputed || report.is_some() || !images.is_empty()).then(|| {
+        let (paths, options) = (photons.emitted_paths, options(&args, &photons));
+        RadianceEstimate::new(&photons.records, &query_header.materials, paths, options).in_order(map.order())
+    });
+    let precomputed = match &estimate {
+        Some(estimate) if rest.precomputed => {
+            let how = Precomputation {
+                map,
+                search,
+                reread: rest.reread,
+                photons: &photons.records,
+                estimate,
+                share: rest.precomputed_share,
+                materials: &query_header.materials,
+            };
+            Some(precompute(&how, rest.common.threads(), &mut header)?)
+        }
+        _ => None,
     };
-    let precomputed = if rest.precomputed { Some(precompute(&how, rest.common.threads(), &mut header)?) } else { None };
     let mut trace = match args.trace {
         true => Some(TraceWriter::new(rest.output.create()?, &header)?),
         false => None,
     };
     let name = named(&first.queries);
     let (cache, block, beside) = queries::read_cache(&mut blocks, !rest.no_gradients).with_context(|| name.clone())?;
-    let scale = estimate.scale(&query_header.bounds);
+    let scale = estimate.as_ref().map_or(1.0, |estimate| estimate.scale(&query_header.bounds));
     let mut films = Films::new(!images.is_empty(), &query_header, &cache, scale)?;
     // The threads only need the films' unit.
     let unit = Film::new(0, scale);
@@ -101,7 +103,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
         regions: trace.is_some().then_some(&header.regions[..]),
         cache: &cache,
         precomputed: precomputed.as_ref(),
-        estimate: (!images.is_empty()).then_some((&estimate, &unit)),
+        estimate: estimate.as_ref().filter(|_| !images.is_empty()).map(|estimate| (estimate, &unit)),
     };
     let asked = Asked { name, blocks, first: block, beside };
     let mut done = answer_all(&answerer, asked, &rest.common, &mut films, trace.as_mut())?;
@@ -109,11 +111,11 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
     let picture = films.develop(query_header.image, &cache, rest.base.is_some())?;
     pictures::write(&args, picture, images, &pictures::origin(&args, &photons, &query_header, done.tally))?;
-    if let Some(output) = report {
+    if let (Some(output), Some(estimate)) = (report, &estimate) {
         let lookups = done.lookups.take().unwrap_or_else(|| Lookups::new(args.line(), &header.regions, None));
         let description =
             Description { args: &args, map, building, photons: &photons.records, search, header: &header, done: &done };
-        description.write(&estimate, lookups, output)?;
+        description.write(estimate, lookups, output)?;
     }
     if let Some(trace) = trace {
         let mut stages = done.end.stages.clone();

@@ -1,0 +1,54 @@
+//! Payloads made small and large again, by contexts that each thread keeps: to make one costs as much as a small block.
+
+use std::cell::RefCell;
+use std::io;
+use zstd::bulk::{Compressor, Decompressor};
+
+thread_local! {
+    static COMPRESSOR: RefCell<Option<Compressor<'static>>> = const { RefCell::new(None) };
+    static DECOMPRESSOR: RefCell<Option<Decompressor<'static>>> = const { RefCell::new(None) };
+}
+
+/// A zstd frame that holds the payload.
+pub(super) fn compress(payload: &[u8], level: i32) -> io::Result<Vec<u8>> {
+    COMPRESSOR.with_borrow_mut(|kept| {
+        let compressor = match kept {
+            Some(compressor) => compressor,
+            None => kept.insert(Compressor::new(level)?),
+        };
+        compressor.set_compression_level(level)?;
+        compressor.compress(payload)
+    })
+}
+
+/// The payload of a zstd frame, into a buffer. Returns its size.
+pub(super) fn decompress(frame: &[u8], payload: &mut [u8]) -> io::Result<usize> {
+    DECOMPRESSOR.with_borrow_mut(|kept| {
+        let decompressor = match kept {
+            Some(decompressor) => decompressor,
+            None => kept.insert(Decompressor::new()?),
+        };
+        decompressor.decompress_to_buffer(frame, payload)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_context_that_was_used_before_makes_the_same_frame() {
+        let text = |n: usize, step: usize| (0..n).map(|i| (i * step / 7 % 251) as u8).collect::<Vec<_>>();
+        for (at, level) in [0, 1, 3, 1, 9, 0, 1].into_iter().enumerate() {
+            for payload in [text(100_000, 3 + at), text(10, 1), vec![], text(300_000, 1)] {
+                let frame = compress(&payload, level).unwrap();
+                assert_eq!(frame, zstd::bulk::compress(&payload, level).unwrap(), "{at}, {level}");
+                let mut again = vec![0; payload.len()];
+                assert_eq!(decompress(&frame, &mut again).unwrap(), payload.len());
+                assert_eq!(again, payload);
+            }
+            // What is damaged does no harm to those that come after it.
+            assert!(decompress(&[0x28, 0xb5, 0x2f, 0xfd, 1, 2, 3], &mut [0; 100]).is_err());
+        }
+    }
+}
