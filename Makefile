@@ -14,7 +14,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability bench man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{11\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
 
 include scripts/orders.mk
 include scripts/sweep.mk

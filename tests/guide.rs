@@ -91,6 +91,23 @@ fn what_cannot_guide_is_told() {
     assert!(outcome.fails(0).contains("none.pmp holds no photons"), "{}", outcome.stderr);
     assert!(records::<Query>(&outcome.stdout) == records::<Query>(&plain));
 
+    // Too few: said, not claimed, and as without a guide.
+    folder.run("pm-photons -n 30 -o few.pmp").ok();
+    let outcome = folder.run("pm-queries --size 8x8 --gathers 4 --guide few.pmp");
+    assert!(outcome.fails(0).contains("photons are too few to guide"), "{}", outcome.stderr);
+    assert!(records::<Query>(&outcome.stdout) == records::<Query>(&plain));
+    assert_eq!(BlockReader::new(&outcome.stdout[..]).unwrap().header().meaning(meaning::SAMPLING), None);
+
+    // Not many are enough: cells are as full as the photons allow.
+    folder.run("pm-queries --size 8x8 --gathers 4 --guide map.pmp -o guided.pmq").ok();
+    let shown = folder.run("pm-view guided.pmq").ok();
+    let of = |name: &str| -> u64 {
+        let line = shown.text().lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("no {name}"));
+        line.split_whitespace().last().and_then(|number| number.replace(',', "").parse().ok()).expect("a number")
+    };
+    // Of the points seen, which send four gather rays each, a third at least.
+    assert!(3 * of("points_guided") > of("gather_rays ") / 4, "{}", shown.text());
+
     // Photons of a scene three times as large.
     folder.write("far.mtl", "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n");
     folder.write(

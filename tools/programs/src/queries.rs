@@ -63,11 +63,13 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
     let mut header = header(&args, &scene, size, order);
     let mut step = typed.step(Some(args.seed));
     let guide = args.guide.as_ref().map(|path| GuidePhotons::read(path, &header.bounds, &args.common)).transpose()?;
-    guide.iter().for_each(|guide| guide.describe(&mut header, &mut step));
+    let mut rays = GatherRays::new(&scene, camera, args.options(&scene.bounds)).with_bins(order.bins());
+    if let Some(guide) = &guide {
+        rays = guide.guide(rays, &args.common);
+        guide.describe(rays.are_guided(), &mut header, &mut step);
+    }
     header.history.push(step);
 
-    let rays = GatherRays::new(&scene, camera, args.options(&scene.bounds)).with_bins(order.bins());
-    let rays = guide.into_iter().fold(rays, |rays, guide| guide.guide(rays, &args.common));
     let mut counts = RayCounts::default();
     let sample = args.sample.choose(order, size, &rays, threads, &mut counts)?;
     sample.set_meaning(&mut header);
@@ -78,6 +80,9 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
     // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
     let mut base = args.base.as_ref().map(|path| Base::create(path, size, &scene)).transpose()?;
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    if let Some(guide) = guide.filter(|_| !rays.are_guided()) {
+        guide.remark_too_few(&rays, &args.common);
+    }
     let options = |accuracy| CacheOptions { accuracy, spacing: args.spacing };
     let cache = args.irradiance_cache.map(|accuracy| CacheRecords::decide(&rays, options(accuracy)));
     if let Some(cache) = &cache {

@@ -6,7 +6,7 @@ use super::direct::{Techniques, direct_light};
 use super::eye::{Eye, VisiblePoint};
 use super::gather_options::GatherOptions;
 use super::gather_path::{GatherPaths, PathRandom};
-use super::guide::Guide;
+use super::guide::{FEWEST, Guide};
 use super::purpose::Purpose;
 use super::query::query_at;
 use super::ray_counts::RayCounts;
@@ -56,6 +56,15 @@ impl<'a> GatherRays<'a> {
     #[must_use]
     pub fn guiding_photons(&self) -> usize {
         self.guide.as_ref().map_or(0, Guide::len)
+    }
+
+    /// Fewest photons that have to be about a point to guide its rays.
+    pub const FEWEST_GUIDES: usize = FEWEST;
+
+    /// Is there any place where photons guide the rays?
+    #[must_use]
+    pub fn are_guided(&self) -> bool {
+        self.guide.as_ref().is_some_and(Guide::guides_somewhere)
     }
 
     /// The camera through which the picture is seen.

@@ -16,8 +16,9 @@ use pm_formats::{Bounds, Photon};
 #[cfg(test)]
 mod tests;
 
-/// Fewest photons that make a distribution.
+/// Photons that make a distribution where there are many, and the fewest that do.
 const ENOUGH: usize = 400;
+pub(super) const FEWEST: usize = 16;
 /// Levels of the octree that are asked, finest first: cells of 1/64 to 1/4 of the scene's longest side.
 const LEVELS: std::ops::RangeInclusive<u32> = 2..=6;
 /// A photon's direction is packed so coarsely that it may be off by so many radians.
@@ -26,6 +27,8 @@ const PACKING: f32 = 0.008;
 /// The photons of a scene, sorted so that those of any cell are neighbours.
 pub(super) struct Guide {
     bounds: Bounds,
+    /// Photons that a cell has to have: fewer where even the fullest of the largest cells has not many.
+    enough: usize,
     /// Keys, ascending: the side that the surface faces above, the place along Hilbert's curve below.
     keys: Vec<u64>,
     incoming: Vec<Incoming>,
@@ -54,9 +57,11 @@ impl Guide {
             towards_source: photon.towards_source().into(),
             power: photon.power().into_iter().sum::<f64>() as f32,
         };
+        let keys: Vec<u64> = sorted.iter().map(|&(key, _)| key).collect();
         Self {
             bounds,
-            keys: sorted.iter().map(|&(key, _)| key).collect(),
+            enough: (fullest(&keys) / 4).clamp(FEWEST, ENOUGH),
+            keys,
             incoming: sorted.iter().map(incoming).collect(),
         }
     }
@@ -64,6 +69,11 @@ impl Guide {
     /// Number of photons that guide.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
+    }
+
+    /// Is there a cell, of the coarsest, that holds enough of them?
+    pub(super) fn guides_somewhere(&self) -> bool {
+        fullest(&self.keys) >= self.enough
     }
 
     /// Where light comes from at a point; `None` if too few photons are about.
@@ -76,10 +86,16 @@ impl Guide {
             let shift = 3 * (HILBERT_BITS - level);
             let first = self.keys.partition_point(|other| other >> shift < key >> shift);
             let number = self.keys[first..].partition_point(|other| other >> shift == key >> shift);
-            (number >= ENOUGH).then(|| &self.incoming[first..first + number])
+            (number >= self.enough).then(|| &self.incoming[first..first + number])
         });
         Directions::new(normal, cell?.iter().map(|photon| (photon.towards_source, photon.power)))
     }
+}
+
+/// Photons of the fullest of the largest cells.
+fn fullest(keys: &[u64]) -> usize {
+    let shift = 3 * (HILBERT_BITS - LEVELS.start());
+    keys.chunk_by(|a, b| a >> shift == b >> shift).map(<[u64]>::len).max().unwrap_or(0)
 }
 
 /// The side that a surface faces (one of six), and where it is.
