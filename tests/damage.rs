@@ -14,6 +14,7 @@ fn consumer(kind: StreamKind) -> &'static str {
         StreamKind::Photons => "pm-gather - q.pmq -k 3",
         StreamKind::Queries => "pm-reorder hilbert",
         StreamKind::Trace => "pm-cachesim --sizes 1K",
+        StreamKind::UnroundedPhotons => "pm-view --merge -o merged.pmp",
     }
 }
 
@@ -45,6 +46,12 @@ fn cut_everywhere(kind: StreamKind) {
             refused(&folder.feed(program, &stream[..len]), &format!("cut to {len} of {} bytes", stream.len()));
         }
     }
+}
+
+#[test]
+fn a_part_of_photons_is_cut_everywhere_and_any_bit_of_it_flipped() {
+    cut_everywhere(StreamKind::UnroundedPhotons);
+    flip_a_bit_of_every_byte(StreamKind::UnroundedPhotons);
 }
 
 fn flip_a_bit_of_every_byte(kind: StreamKind) {
@@ -112,7 +119,7 @@ fn the_library_refuses_every_cut_and_every_flipped_bit() {
 #[test]
 fn what_is_no_whole_stream_is_refused_by_every_reader() {
     let folder = folder();
-    for kind in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace] {
+    for kind in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace, StreamKind::UnroundedPhotons] {
         let whole = specimen(kind);
         let half = &whole[..whole.len() / 2];
         // Readers of every way to read: for work, as a second input, checked, shown, as text.
@@ -121,6 +128,7 @@ fn what_is_no_whole_stream_is_refused_by_every_reader() {
             StreamKind::Photons => readers.push("pm-gather - q.pmq --no-trace --image out.exr"),
             StreamKind::Queries => readers.extend(["pm-gather", "pm-gather -t 4", "pm-reorder random --per batch"]),
             StreamKind::Trace => readers.extend(["pm-cachesim --format json"]),
+            StreamKind::UnroundedPhotons => {}
         }
         for reader in readers {
             let refuses = |what: &str, bytes: &[u8]| {

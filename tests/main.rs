@@ -20,6 +20,7 @@ mod light;
 mod oracles;
 mod orders;
 mod page;
+mod parts;
 mod pictures;
 mod pipes;
 mod precomputed;

@@ -1,7 +1,7 @@
 //! Streams read in process by the formats library: what they hold, and whether they are whole.
 
 use pm_formats::trace::{Access, TraceReader, TraceSink};
-use pm_formats::{BlockReader, Photon, Query, Record, RecordReader, Result, StreamKind, Tally};
+use pm_formats::{BlockReader, Photon, Query, Record, RecordReader, Result, StreamKind, Tally, UnroundedPhoton};
 
 /// All there is to check, as every program checks it: the tally of a whole stream, or what is wrong with it.
 pub(crate) fn check(stream: &[u8]) -> Result<Tally> {
@@ -9,6 +9,7 @@ pub(crate) fn check(stream: &[u8]) -> Result<Tally> {
     match blocks.kind() {
         StreamKind::Photons => check_records::<Photon>(blocks),
         StreamKind::Queries => check_records::<Query>(blocks),
+        StreamKind::UnroundedPhotons => check_records::<UnroundedPhoton>(blocks),
         StreamKind::Trace => {
             let mut reader = TraceReader::from_blocks(blocks)?;
             while reader.replay_block(&mut Events::default())?.is_some() {}

@@ -29,6 +29,7 @@ mod container;
 mod digest;
 mod error;
 mod history;
+mod parts;
 mod record;
 mod region;
 mod stream;
@@ -46,8 +47,9 @@ pub use container::{
 pub use digest::{Digest, Tally};
 pub use error::{Error, Result};
 pub use history::{Step, as_commands};
+pub use parts::{Parts, PartsError, each_part_once, whole_header};
 pub use record::{
-    BLOCK_RECORDS, Photon, Query, Record, decode_checked, decode_records, encode_records, pack_direction, pack_rgbe,
-    unpack_direction, unpack_rgbe,
+    BLOCK_RECORDS, Photon, Query, Record, UnroundedPhoton, decode_checked, decode_records, encode_records,
+    pack_direction, pack_rgbe, unpack_direction, unpack_rgbe,
 };
 pub use stream::{RecordReader, RecordWriter};

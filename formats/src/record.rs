@@ -4,11 +4,13 @@ mod direction;
 mod photon;
 mod query;
 mod rgbe;
+mod unrounded_photon;
 
 pub use direction::{pack_direction, unpack_direction};
 pub use photon::Photon;
 pub use query::Query;
 pub use rgbe::{pack_rgbe, unpack_rgbe};
+pub use unrounded_photon::UnroundedPhoton;
 
 use crate::container::{Block, BlockMeta, Header, Section, StreamKind};
 use crate::digest::Tally;
@@ -110,6 +112,7 @@ mod tests {
     fn sizes_are_the_papers() {
         assert_eq!(size_of::<Photon>(), 20);
         assert_eq!(size_of::<Query>(), 44);
+        assert_eq!(size_of::<UnroundedPhoton>(), 32);
     }
 
     #[test]

@@ -7,9 +7,11 @@
 pub mod meaning;
 pub mod measure;
 mod order;
+mod part;
 mod sample;
 
 pub use order::{DeferredLabel, OrderLabel};
+pub use part::Part;
 pub use sample::SampleUnit;
 
 /// The text is not what its place in a header calls for.

@@ -4,7 +4,7 @@
 //! programs said of them. `golden/v2-*` are the same blocks in version 2.
 
 use pm_formats::trace::{Access, TraceReader, TraceSink};
-use pm_formats::{BlockReader, BlockWriter, Photon, Query, Record, RecordReader, StreamKind, Tally};
+use pm_formats::{BlockReader, BlockWriter, Photon, Query, Record, RecordReader, StreamKind, Tally, UnroundedPhoton};
 use std::fs;
 use std::path::PathBuf;
 use xxhash_rust::xxh3::xxh3_64;
@@ -41,6 +41,7 @@ fn read(bytes: &[u8]) -> pm_formats::Result<Tally> {
     match stream.kind() {
         StreamKind::Photons => records::<Photon>(stream),
         StreamKind::Queries => records::<Query>(stream),
+        StreamKind::UnroundedPhotons => records::<UnroundedPhoton>(stream),
         StreamKind::Trace => {
             let mut reader = TraceReader::from_blocks(stream)?;
             while reader.replay_block(&mut Nobody)?.is_some() {}

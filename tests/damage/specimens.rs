@@ -3,9 +3,10 @@
 use crate::support::Folder;
 use pm_formats::trace::{BlockEncoder, TraceWriter, lay_out};
 use pm_formats::trace::{Coding, Region};
-use pm_formats::vocabulary::measure;
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{
     BlockMeta, Bounds, Header, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step, StreamKind,
+    UnroundedPhoton,
 };
 
 /// Records of each of the three blocks.
@@ -17,6 +18,7 @@ pub(super) fn specimen(kind: StreamKind) -> Vec<u8> {
         StreamKind::Photons => written(photon),
         StreamKind::Queries => written(query),
         StreamKind::Trace => trace(),
+        StreamKind::UnroundedPhotons => part(),
     }
 }
 
@@ -67,6 +69,22 @@ fn written<T: Record>(record: impl Fn(u32) -> T) -> Vec<u8> {
         writer.write(meta, &records).expect("a block");
     }
     writer.finish(stages("pm-x")).expect("an end block")
+}
+
+/// The only part of a stream of twelve photons.
+fn part() -> Vec<u8> {
+    let mut header = Header { expected_records: Some(12), ..header("pm-x") };
+    header.set_meaning(meaning::PART, "1/1");
+    let mut writer = RecordWriter::new(vec![], &header).expect("a header");
+    for batch in 0..3 {
+        let position = |i| [number(batch * EACH + i), 0.0, number(i + 100)];
+        let photon = |i| UnroundedPhoton::new(position(i), [number(i); 3], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0], i * 9);
+        let photons: Vec<UnroundedPhoton> = (0..EACH).map(photon).collect();
+        let meta = BlockMeta { batch: batch.into(), ..BlockMeta::default() };
+        writer.write(meta, &photons).expect("a block");
+    }
+    let stage = StageReport::new("pm-x").with(measure::PATHS_TRACED, Number::Count(3 * 4096));
+    writer.finish(vec![stage]).expect("an end block")
 }
 
 fn trace() -> Vec<u8> {

@@ -44,6 +44,10 @@ class Stream:
         """All photons, as an array of `records.PHOTON`."""
         return self._all("photons", records.PHOTON)
 
+    def photons_of_a_part(self):
+        """All photons of a part, their powers not yet rounded, as an array of `records.PHOTON_OF_A_PART`."""
+        return self._all("photons of a part", records.PHOTON_OF_A_PART)
+
     def queries(self):
         """All queries, as an array of `records.QUERY`."""
         return self._all("queries", records.QUERY)

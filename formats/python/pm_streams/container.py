@@ -9,7 +9,7 @@ import zstandard
 from .xxh3 import xxh3_64
 
 MAGIC = b"\x89PMS\r\n\x1a\n"
-KINDS = {1: "photons", 2: "queries", 3: "trace"}
+KINDS = {1: "photons", 2: "queries", 3: "trace", 4: "photons of a part"}
 RECORDS, IRRADIANCE_RECORDS, PIXEL_WEIGHTS, END = 0, 1, 2, 255
 MOST_BYTES, MOST_PIXELS, DEEPEST = 1 << 26, 1 << 28, 64
 

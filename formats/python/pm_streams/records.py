@@ -3,6 +3,9 @@
 import numpy as np
 
 PHOTON = np.dtype([("position", "<f4", 3), ("rgbe", "u1", 4), ("from", "<u2"), ("packed", "<u2")])
+PHOTON_OF_A_PART = np.dtype(
+    [("position", "<f4", 3), ("power", "<f4", 3), ("from", "<u2"), ("packed", "<u2"), ("path", "<u4")]
+)
 QUERY = np.dtype(
     [
         ("position", "<f4", 3),

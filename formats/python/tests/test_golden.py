@@ -90,7 +90,7 @@ class Golden(unittest.TestCase):
         self.assertEqual(header.meaning["sample windows"], "4")
         self.assertEqual([step["program"] for step in header.history], ["pm-queries", "pm-gather"])
         self.assertEqual((header.regions[0].coding, header.image), ("heap walk", (16, 16)))
-        self.assertEqual(set(KINDS.values()), {"photons", "queries", "trace"})
+        self.assertEqual(set(KINDS.values()), {"photons", "queries", "trace", "photons of a part"})
 
 
 if __name__ == "__main__":

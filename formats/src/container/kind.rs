@@ -12,6 +12,8 @@ pub enum StreamKind {
     Queries = 2,
     /// Searches with the accesses they made.
     Trace = 3,
+    /// Photons of a part of a stream, 32 bytes each: their powers are rounded when the parts are put together.
+    UnroundedPhotons = 4,
 }
 
 impl StreamKind {
@@ -22,6 +24,7 @@ impl StreamKind {
             1 => Some(Self::Photons),
             2 => Some(Self::Queries),
             3 => Some(Self::Trace),
+            4 => Some(Self::UnroundedPhotons),
             _ => None,
         }
     }
@@ -33,6 +36,7 @@ impl StreamKind {
             Self::Photons => "photons",
             Self::Queries => "queries",
             Self::Trace => "searches (a trace)",
+            Self::UnroundedPhotons => "photons of a part (to be put together by pm-view --merge)",
         }
     }
 }

@@ -26,6 +26,8 @@ pub const MAP: &str = "map";
 pub const K: &str = "k";
 /// Irradiance was computed at some photons before: where, in words.
 pub const PRECOMPUTED: &str = "precomputed";
+/// The stream is one of several parts that several machines make: a [`Part`](super::Part).
+pub const PART: &str = "part";
 /// The stream is a part of a whole: which, in words.
 pub const SAMPLE: &str = "sample";
 /// What the part was chosen of: a [`SampleUnit`](super::SampleUnit).

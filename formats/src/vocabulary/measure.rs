@@ -47,3 +47,74 @@ pub const SPILLED_WRITTEN: &str = "spilled_written";
 pub const SPILLED_READ: &str = "spilled_read";
 /// Rays cast again to get queries back from compact records.
 pub const RAYS_CAST_AGAIN: &str = "rays_cast_again";
+/// Of partitions of a batch: the most there were.
+pub const PARTITIONS: &str = "partitions";
+/// Partitions that were larger than the store.
+pub const PARTITIONS_OVERFLOWING: &str = "partitions_overflowing";
+/// Rays of the samples that decided where partitions end.
+pub const PREPASS_RAYS: &str = "prepass_rays";
+
+/// Gather rays that went on because they were short.
+pub const GATHER_RAYS_CONTINUED: &str = "gather_rays_continued";
+/// Points seen whose gather rays photons guided.
+pub const POINTS_GUIDED: &str = "points_guided";
+
+/// Queries that were answered, or read.
+pub const QUERIES: &str = "queries";
+/// Records that searches read.
+pub const ACCESSES: &str = "accesses";
+/// Attempts that searches took.
+pub const ATTEMPTS: &str = "attempts";
+/// Searches that found fewer photons than they wanted.
+pub const SHORT_LOOKUPS: &str = "short_lookups";
+/// Searches whose photons lie at one point.
+pub const LOOKUPS_WITHOUT_AREA: &str = "lookups_without_area";
+/// Searches for precomputed irradiance that found none.
+pub const LOOKUPS_WITHOUT_SITE: &str = "lookups_without_site";
+
+/// Of a part of photons: its paths, those among them that store nothing.
+pub const PATHS_TRACED: &str = "paths_traced";
+
+/// What of the whole the parts of a stream tell together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfParts {
+    /// The sum of what they tell.
+    Sum,
+    /// The greatest.
+    Greatest,
+    /// What all of them tell alike: it is of the whole, or of all they were made from.
+    Same,
+}
+
+/// How a measure of parts becomes the whole's, in a stage that has these measures.
+#[must_use]
+pub fn of_parts(name: &str, stage: &[(String, crate::Number)]) -> OfParts {
+    const SUMS: [&str; 16] = [
+        EYE_RAYS_AGAIN,
+        GATHER_RAYS,
+        GATHER_RAYS_LOST,
+        GATHER_RAYS_CONTINUED,
+        POINTS_GUIDED,
+        SPILLED_WRITTEN,
+        SPILLED_READ,
+        RAYS_CAST_AGAIN,
+        PARTITIONS_OVERFLOWING,
+        PREPASS_RAYS,
+        QUERIES,
+        ACCESSES,
+        ATTEMPTS,
+        SHORT_LOOKUPS,
+        LOOKUPS_WITHOUT_AREA,
+        LOOKUPS_WITHOUT_SITE,
+    ];
+    const GREATEST: [&str; 5] = [PEAK_QUERIES_HELD, STORAGE, STORAGE_COMPACT, ON_CHIP, PARTITIONS];
+    // To know where windows of rays lie, each part casts all eye rays once.
+    let windows = || stage.iter().any(|(name, _)| name == GATHER_RAYS_OF_ALL);
+    if SUMS.contains(&name) || (name == EYE_RAYS && !windows()) {
+        OfParts::Sum
+    } else if GREATEST.contains(&name) {
+        OfParts::Greatest
+    } else {
+        OfParts::Same
+    }
+}

@@ -1,7 +1,7 @@
 //! Records as tab-separated text, with a line of names.
 
 use pm_formats::trace::{Access, AccessKind, Region, TraceReader, TraceSink};
-use pm_formats::{BlockReader, Photon, Query, RecordReader, StreamKind};
+use pm_formats::{BlockReader, Photon, Query, RecordReader, StreamKind, UnroundedPhoton};
 use std::fmt::Write as _;
 use std::io::{Read, Write};
 
@@ -13,6 +13,7 @@ use std::io::{Read, Write};
 pub fn records<R: Read>(stream: BlockReader<R>, limit: u64, output: &mut impl Write) -> anyhow::Result<()> {
     match stream.kind() {
         StreamKind::Photons => photons(RecordReader::from_blocks(stream)?, limit, output),
+        StreamKind::UnroundedPhotons => unrounded(RecordReader::from_blocks(stream)?, limit, output),
         StreamKind::Queries => queries(RecordReader::from_blocks(stream)?, limit, output),
         StreamKind::Trace => searches(TraceReader::from_blocks(stream)?, limit, output),
     }
@@ -33,6 +34,25 @@ fn photons<R: Read>(mut stream: RecordReader<Photon, R>, limit: u64, output: &mu
             id += 1;
         }
         left = limit.saturating_sub(id);
+    }
+    Ok(())
+}
+
+fn unrounded<R: Read>(
+    mut stream: RecordReader<UnroundedPhoton, R>,
+    limit: u64,
+    output: &mut impl Write,
+) -> anyhow::Result<()> {
+    writeln!(output, "batch\tpath\tx\ty\tz\tpower_r\tpower_g\tpower_b")?;
+    let mut left = limit;
+    while let Some((meta, photons)) = stream.next_block()? {
+        for photon in photons.iter().take(usize::try_from(left).unwrap_or(usize::MAX)) {
+            write!(output, "{}\t{}", meta.batch, photon.path)?;
+            numbers(output, photon.position)?;
+            numbers(output, photon.power)?;
+            writeln!(output)?;
+        }
+        left = left.saturating_sub(photons.len() as u64);
     }
     Ok(())
 }

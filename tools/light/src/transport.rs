@@ -45,7 +45,7 @@ pub use bvh::{Bvh, RayCaster, RayHit};
 pub use cache_records::{CacheOptions, CacheRecords};
 pub use gather_options::{GatherOptions, Method};
 pub use gather_rays::GatherRays;
-pub use photon_paths::{PathPhoton, PhotonPaths};
+pub use photon_paths::{PathPhoton, PhotonPaths, photon_rounding};
 pub use pixel_caster::PixelCaster;
 pub use ray_counts::RayCounts;
 pub use ray_plan::{Piece, RayPlan};

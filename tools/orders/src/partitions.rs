@@ -4,6 +4,7 @@
 //! interval of keys, and the intervals' ends come from a sample of the queries that is cast before the picture.
 
 use super::{BURST_BUFFER, Costs, Store};
+use pm_formats::vocabulary::measure;
 use pm_formats::{Number, Query};
 use pm_random::Random;
 use std::collections::BinaryHeap;
@@ -117,9 +118,9 @@ impl Partitions {
         let fullest = self.parts.iter().map(|part| part.queries.min(store.room())).max().unwrap_or(0);
         let on_chip = (fullest * store.record.bytes()).max(parts.min(store.fan()) * BURST_BUFFER);
         costs.group(n, n * store.passes_to_part(parts) + again, on_chip);
-        costs.tell("partitions", Number::Count(self.totals.partitions));
-        costs.tell("partitions_overflowing", Number::Count(self.totals.overflowing));
-        costs.tell("prepass_rays", Number::Count(self.totals.rays));
+        costs.tell(measure::PARTITIONS, Number::Count(self.totals.partitions));
+        costs.tell(measure::PARTITIONS_OVERFLOWING, Number::Count(self.totals.overflowing));
+        costs.tell(measure::PREPASS_RAYS, Number::Count(self.totals.rays));
     }
 }
 

@@ -8,6 +8,7 @@ mod found;
 mod miss_file;
 mod policy_words;
 mod questions;
+mod replay;
 mod results;
 mod simulate;
 mod sizes;
@@ -64,9 +65,7 @@ pub fn run(args: &Args, typed: &Typed, registries: &Registries) -> anyhow::Resul
             return Ok(None);
         }
     } else {
-        for trace in &args.traces {
-            simulate::simulate(args, trace, &registries.imports, &questions, &mut results)?;
-        }
+        simulate::simulate_all(args, &registries.imports, &questions, &mut results)?;
     }
     // The table is written when every trace was read to its end: a broken pipe yields none.
     let mut table = vec![];

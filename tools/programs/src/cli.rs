@@ -10,6 +10,7 @@ mod generate;
 mod input;
 mod outcome;
 mod output;
+mod parts;
 mod picture;
 mod program;
 mod progress;
@@ -23,7 +24,11 @@ pub use entry::{EntryParser, entry};
 pub use input::{Input, Whole, named, open_bytes, open_input, read_whole};
 pub use outcome::Outcome;
 pub use output::{Output, OutputArgs, create_output};
-pub use picture::{describe_picture, picture_format, read_framed, read_preview, write_picture};
+pub use parts::{refuse_part, refuse_parts};
+pub use picture::{
+    PART, QUERIES, check_part_of_picture, describe_picture, picture_format, picture_says, read_framed, read_preview,
+    write_picture,
+};
 pub use program::Program;
 pub use progress::Progress;
 pub use usage::{UsageError, usage};

@@ -10,7 +10,7 @@ mod queries;
 mod scenes;
 mod stage;
 
-use crate::cli::{Outcome, Output, Program, Typed, create_output, named, usage};
+use crate::cli::{Outcome, Output, Program, Typed, create_output, named, refuse_part, usage};
 use answering::{Asked, answer_all};
 use anyhow::Context as _;
 use args::Args;
@@ -89,6 +89,9 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     };
     let name = named(&first.queries);
     let (cache, block, beside) = queries::read_cache(&mut blocks, !rest.no_gradients).with_context(|| name.clone())?;
+    if !cache.is_empty() && !images.is_empty() {
+        refuse_part(&name, &query_header, "pixels take irradiance that other parts gather")?;
+    }
     let scale = estimate.as_ref().map_or(1.0, |estimate| estimate.scale(&query_header.bounds));
     let mut films = Films::new(!images.is_empty(), &query_header, &cache, scale)?;
     // The threads only need the films' unit.

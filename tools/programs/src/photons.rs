@@ -2,6 +2,7 @@
 
 mod args;
 mod collect;
+pub(crate) mod part;
 
 pub use args::Args;
 
@@ -11,12 +12,13 @@ use anyhow::ensure;
 use collect::{Collected, Traced};
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{BlockMeta, Number, RecordWriter, StageReport};
+use pm_light::scene::Scene;
 use pm_light::transport::PhotonPaths;
 use pm_parallel::in_order;
 use std::cell::RefCell;
 
 /// Paths traced as one piece of work.
-const PATHS: u64 = 4096;
+pub(crate) const PATHS: u64 = 4096;
 /// Paths after which a scene that has stored nothing is given up.
 const HOPELESS: u64 = 1 << 22;
 
@@ -35,10 +37,13 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if args.caustics {
         header.set_meaning(meaning::PHOTONS, meaning::CAUSTICS);
     }
+    if let Some(part) = args.part {
+        return part::trace(part, &args, &scene, header, typed);
+    }
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
 
-    let paths = if args.caustics { PhotonPaths::of_caustics } else { PhotonPaths::new }(&scene, args.seed);
+    let paths = paths(&args, &scene);
     let collected = RefCell::new(Collected::new(args.number));
     let mut first_path = 0;
     in_order(
@@ -56,13 +61,7 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
             let packed = collected.add(&traced, &paths)?;
             output.write(BlockMeta::default(), packed)?;
             progress.add(packed.len() as u64);
-            ensure!(
-                collected.stored > 0 || collected.emitted < HOPELESS,
-                "no photon{} met a diffuse surface in {} paths: do the lights face the scene, and is anything diffuse (Kd)?",
-                if args.caustics { " of a caustic" } else { "" },
-                collected.emitted
-            );
-            Ok(())
+            check_hope(&args, collected.stored, collected.emitted)
         },
     )?;
     drop(progress);
@@ -71,4 +70,19 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
         .with("photons", Number::Count(stored))
         .with(measure::EMITTED_PATHS, Number::Count(emitted));
     output.finish(vec![report])?.commit()
+}
+
+/// The paths that are asked for.
+fn paths<'a>(args: &Args, scene: &'a Scene) -> PhotonPaths<'a> {
+    if args.caustics { PhotonPaths::of_caustics(scene, args.seed) } else { PhotonPaths::new(scene, args.seed) }
+}
+
+/// Gives a scene up that stores nothing.
+fn check_hope(args: &Args, stored: u64, emitted: u64) -> anyhow::Result<()> {
+    ensure!(
+        stored > 0 || emitted < HOPELESS,
+        "no photon{} met a diffuse surface in {emitted} paths: do the lights face the scene, and is anything diffuse (Kd)?",
+        if args.caustics { " of a caustic" } else { "" },
+    );
+    Ok(())
 }

@@ -73,12 +73,13 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
     let mut counts = RayCounts::default();
     let sample = args.sample.choose(order, size, &rays, threads, &mut counts)?;
     sample.set_meaning(&mut header);
-    let to_do = sample.size(order, size);
+    let to_do = sample.size(order, size, None);
     let gathers_a_pixel = u64::from(args.samples) * u64::from(args.gathers());
+    // Of the whole, also in a part: its parts have one header.
     header.expected_records = Some(to_do * if sample.is_of_rays() { 1 } else { gathers_a_pixel });
 
     // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
-    let mut base = args.base.as_ref().map(|path| Base::create(path, size, &scene)).transpose()?;
+    let mut base = args.base.as_ref().map(|path| Base::create(path, size, &scene, args.part)).transpose()?;
     let mut output = RecordWriter::new(args.output.create()?, &header)?;
     if let Some(guide) = guide.filter(|_| !rays.are_guided()) {
         guide.remark_too_few(&rays, &args.common);
@@ -89,10 +90,19 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
         cache::write_cache(cache, &rays, size, threads, &mut output)?;
     }
 
+    let to_do = args.part.map_or(to_do, |part| sample.size(order, size, Some(part)));
     let progress = Progress::new(Some(to_do), sample.unit(), args.common.quiet);
     let exposure = base.is_some().then(|| Exposure::new(&scene));
-    let casting =
-        Casting { rays: &rays, cache: cache.as_ref(), sample: &sample, order, size, gathers_a_pixel, exposure };
+    let casting = Casting {
+        rays: &rays,
+        cache: cache.as_ref(),
+        sample: &sample,
+        part: args.part,
+        order,
+        size,
+        gathers_a_pixel,
+        exposure,
+    };
     casting.run(threads, |cast, job| {
         output.write(job.meta, &cast.queries)?;
         base.as_mut().map_or(Ok(()), |base| base.add(cast.light))?;
@@ -102,7 +112,8 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
     })?;
     drop(progress);
 
-    if counts.eye > 0 && counts.seen == 0 {
+    // Other parts may see some.
+    if counts.eye > 0 && counts.seen == 0 && args.part.is_none() {
         let eye = if sample.is_of_batches() { "what was chosen of the picture" } else { "the camera" };
         args.common.remark(format!("{eye} sees no diffuse surface: there are no queries"));
     }
@@ -128,6 +139,9 @@ fn header(args: &Args, scene: &Scene, size: [u32; 2], order: &dyn Generative) ->
     if args.samples > 1 {
         header.set_meaning(meaning::SAMPLES, args.samples);
     }
+    if let Some(part) = args.part {
+        header.set_meaning(meaning::PART, part);
+    }
     header
 }
 
@@ -152,10 +166,10 @@ fn report(
         report = report.with(measure::EYE_RAYS_AGAIN, Number::Count(counts.eye_again));
     }
     if args.options(&scene.bounds).min_gather_dist > 0.0 {
-        report = report.with("gather_rays_continued", Number::Count(counts.gather_continued));
+        report = report.with(measure::GATHER_RAYS_CONTINUED, Number::Count(counts.gather_continued));
     }
     if args.guide.is_some() {
-        report = report.with("points_guided", Number::Count(counts.guided));
+        report = report.with(measure::POINTS_GUIDED, Number::Count(counts.guided));
     }
     report
 }

@@ -4,7 +4,7 @@ mod args;
 mod memory;
 mod photons;
 
-use crate::cli::{Outcome, Output, Program, Progress, Typed, named, open_input, usage};
+use crate::cli::{Outcome, Output, Program, Progress, Typed, named, open_input, refuse_part, usage};
 use anyhow::Context as _;
 use args::Args;
 use photons::Photons;
@@ -39,6 +39,9 @@ fn reorder(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut queries = RecordReader::<Query, _>::from_blocks(open_input(&first.queries)?).context(name.clone())?;
     let mut header = queries.header().clone();
     check_sample(&args, &name, &header)?;
+    if first.per == Per::Image {
+        refuse_part(&name, &header, "the order of the whole image is none of its parts': give --per batch")?;
+    }
     let label = DeferredLabel {
         order: order.entry.label(&order.values, store),
         per_batch: first.per == Per::Batch,

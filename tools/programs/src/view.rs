@@ -6,6 +6,7 @@ mod export;
 mod header;
 mod import;
 mod look;
+mod merge;
 mod pictures;
 mod tables;
 mod whole;
@@ -42,6 +43,9 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     if let Some(what) = args.import {
         return import::import(what, &args, typed);
+    }
+    if args.merge {
+        return merge::merge(&args);
     }
     if let Some(sheet) = &args.sheet {
         return pictures::make_sheet(sheet, &args);

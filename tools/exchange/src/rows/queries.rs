@@ -5,7 +5,7 @@ use super::reader::Rows;
 use super::row::Row;
 use super::spool::{Imported, Spool};
 use crate::fault::bad_question;
-use pm_formats::vocabulary::meaning;
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{Header, Material, Number, Query, StageReport, Step};
 use std::collections::HashMap;
 use std::io::BufRead;
@@ -97,7 +97,7 @@ pub fn queries(input: impl BufRead, options: &RowOptions, step: Step) -> anyhow:
     }
     let mut header = Header { image, materials: materials.table(), history: vec![step.clone()], ..Header::empty() };
     header.set_meaning(meaning::ORDER, "imported");
-    let stage = StageReport::new(&step.program).with("queries", Number::Count(spool.records));
+    let stage = StageReport::new(&step.program).with(measure::QUERIES, Number::Count(spool.records));
     Ok(spool.finish(header, stage, unused))
 }
 

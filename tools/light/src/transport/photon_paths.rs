@@ -175,14 +175,19 @@ impl<'a> PhotonPaths<'a> {
     /// photons are exact on average. `None` if its power cannot be packed.
     #[must_use]
     pub fn pack(&self, id: u64, photon: &PathPhoton) -> Option<Photon> {
-        let mut random = Random::new(&[self.seed, Purpose::PhotonRounding as u64, id]);
-        let threshold = [(); 3].map(|()| random.unit());
         Photon::new(
             photon.position.into(),
             photon.power.into(),
-            threshold,
+            photon_rounding(self.seed, id),
             photon.towards_source.into(),
             photon.normal.into(),
         )
     }
+}
+
+/// The thresholds by which the power of photon number `id` of these paths is rounded.
+#[must_use]
+pub fn photon_rounding(seed: u64, id: u64) -> [f32; 3] {
+    let mut random = Random::new(&[seed, Purpose::PhotonRounding as u64, id]);
+    [(); 3].map(|()| random.unit())
 }

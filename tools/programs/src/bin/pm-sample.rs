@@ -8,7 +8,7 @@ use clap::{ArgGroup, Parser};
 use cutter::Cutter;
 use pm_formats::vocabulary::{SampleUnit, meaning, measure};
 use pm_formats::{Header, Number, Query, RecordReader, RecordWriter, StageReport};
-use pm_programs::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input, usage};
+use pm_programs::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input, refuse_part, usage};
 use pm_random::Random;
 use pm_sampling::windows::StratifiedStream;
 use std::path::PathBuf;
@@ -128,6 +128,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let mut queries = RecordReader::<Query, _>::from_blocks(open_input(&args.input)?).context(name.clone())?;
     let mut header = queries.header().clone();
     let progress = Progress::new(header.expected_records, "queries", args.voice.quiet);
+    refuse_part(&name, &header, "a sample is chosen of all batches")?;
     sample.describe(&args, &name, &mut header)?;
     header.history.push(typed.step_from(&args.input, Some(args.seed)));
 

@@ -3,12 +3,12 @@
 use super::questions::Questions;
 use super::results::{Results, Source};
 use super::{Args, Registries, simulate, windowed};
-use crate::cli::{Output, OutputArgs, Progress, Typed, named, usage};
+use crate::cli::{Output, OutputArgs, Progress, Typed, named, refuse_part, usage};
 use anyhow::Context as _;
 use pm_caches::{CacheCounts, MissStream};
 use pm_exchange::traces::{Opened, header_of};
 use pm_formats::trace::TraceReader;
-use pm_formats::vocabulary::meaning;
+use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{Number, StageReport};
 use std::path::Path;
 
@@ -32,7 +32,7 @@ pub(super) fn write(
     let through = |before: Option<&str>| before.map_or(cache.to_string(), |first| format!("{first}, {cache}"));
     let report = |counts: &CacheCounts| {
         StageReport::new(typed.program())
-            .with("accesses", Number::Count(counts.accesses))
+            .with(measure::ACCESSES, Number::Count(counts.accesses))
             .with("fetches", Number::Count(counts.fetches))
             .with("bytes_fetched", Number::Bytes(counts.bytes_fetched))
             .with("bytes_written_back", Number::Bytes(counts.bytes_written_back))
@@ -42,6 +42,7 @@ pub(super) fn write(
     let (output, source, findings) = match simulate::open(args, path, &registries.imports)? {
         Opened::Ours(blocks) => {
             let mut trace = TraceReader::from_blocks(blocks).context(name.clone())?;
+            refuse_part(&name, trace.header(), "a cache goes on from batch to batch")?;
             if windowed::sample(trace.header()).context(name.clone())?.is_some() {
                 windowed::refuse(args).context(name.clone())?;
             }

@@ -1,6 +1,7 @@
 //! Traces through the simulation: ours and foreign ones, whole and in windows, with one search in flight or several.
 
 use super::questions::{Questions, asked_wrongly};
+use super::replay::{Replay, Waiting};
 use super::results::{Results, Source};
 use super::{Args, windowed};
 use crate::cli::{Progress, named, open_bytes, usage};
@@ -12,19 +13,44 @@ use pm_registry::Registry;
 use std::io::Read;
 use std::path::Path;
 
-/// Simulates all caches on one trace.
-pub(super) fn simulate(
+/// Simulates all caches on every trace. Parts of one trace, given one after the other, are that trace.
+pub(super) fn simulate_all(
     args: &Args,
-    path: &Path,
     imports: &Registry<dyn TraceImport>,
     questions: &Questions,
     results: &mut Results,
 ) -> anyhow::Result<()> {
+    let mut waiting = Waiting::new();
+    let together = |parts: Option<(String, Replay<_>)>, results: &mut Results| {
+        parts.map_or(Ok(()), |(names, trace)| simulate_ours(args, Path::new(&names), trace, questions, results))
+    };
+    for path in &args.traces {
+        match open(args, path, imports)? {
+            Opened::Ours(blocks) if Waiting::takes(&blocks) => {
+                together(waiting.add(named(path), blocks)?, results)?;
+            }
+            opened => {
+                together(waiting.rest()?, results)?;
+                simulate(args, path, opened, questions, results)?;
+            }
+        }
+    }
+    together(waiting.rest()?, results)
+}
+
+/// Simulates all caches on one trace.
+fn simulate(
+    args: &Args,
+    path: &Path,
+    opened: Opened,
+    questions: &Questions,
+    results: &mut Results,
+) -> anyhow::Result<()> {
     let name = named(path);
-    match open(args, path, imports)? {
+    match opened {
         Opened::Ours(blocks) => {
             let trace = TraceReader::from_blocks(blocks).context(name.clone())?;
-            simulate_ours(args, path, trace, questions, results).context(name)
+            simulate_ours(args, path, Replay::One(Box::new(trace)), questions, results).context(name)
         }
         Opened::Foreign(mut trace) => {
             if args.lanes.iter().any(|&lanes| lanes > 1) {
@@ -67,7 +93,7 @@ pub(super) fn remark_left_out(args: &Args, name: &str, trace: &Trace) {
 fn simulate_ours<R: Read>(
     args: &Args,
     path: &Path,
-    mut trace: TraceReader<R>,
+    mut trace: Replay<R>,
     questions: &Questions,
     results: &mut Results,
 ) -> anyhow::Result<()> {
@@ -87,14 +113,14 @@ fn simulate_ours<R: Read>(
         })?;
         replay(args, &mut trace, &mut windows)?;
         let rows = windows.finish(Some(sample.windows), sample.share);
-        results.add_windows(&Source::ours(path, trace.header(), trace.end()?), rows);
+        results.add_windows(&Source::ours(path, trace.header(), &trace.end()?), rows);
         return Ok(());
     }
     if args.lanes.is_empty() || of_addresses {
         let mut simulation = Simulation::measuring(&regions, configs, &measures)?;
         replay(args, &mut trace, &mut simulation)?;
         simulation.check()?;
-        return results.add(args, &Source::ours(path, trace.header(), trace.end()?), 1, simulation.findings());
+        return results.add(args, &Source::ours(path, trace.header(), &trace.end()?), 1, simulation.findings());
     }
     let lanes = |&lanes: &u16| -> anyhow::Result<_> {
         // Where searches are mixed, an access belongs to none of them.
@@ -104,7 +130,7 @@ fn simulate_ours<R: Read>(
     };
     let mut together = Together(args.lanes.iter().map(lanes).collect::<anyhow::Result<_>>()?);
     replay(args, &mut trace, &mut together)?;
-    let source = Source::ours(path, trace.header(), trace.end()?);
+    let source = Source::ours(path, trace.header(), &trace.end()?);
     for (&lanes, simulation) in args.lanes.iter().zip(together.0) {
         results.add(args, &source, lanes, simulation.finish().context("temporary file")?.findings())?;
     }
@@ -112,7 +138,7 @@ fn simulate_ours<R: Read>(
 }
 
 /// Replays a trace to its end.
-fn replay<R: Read>(args: &Args, trace: &mut TraceReader<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
+fn replay<R: Read>(args: &Args, trace: &mut Replay<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
     let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
     while let Some(block) = trace.replay_block(sink)? {
         progress.add(u64::from(block.records));

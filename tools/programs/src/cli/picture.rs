@@ -3,6 +3,7 @@
 use super::usage::usage;
 use super::{claims, named, software};
 use anyhow::Context as _;
+use pm_formats::vocabulary::Part;
 use pm_pictures::{Description, Frame, Picture, PictureError, PictureFormat, Preview};
 use std::fs;
 use std::io::Write;
@@ -16,6 +17,37 @@ pub fn picture_format(path: &Path) -> anyhow::Result<PictureFormat> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending);
     format.ok_or_else(|| usage(format!("{}: an image's name ends in .exr or .png", path.display())))
+}
+
+/// The attribute of a picture of which other parts are to be added.
+pub const PART: &str = "photonmap.part";
+
+/// The attribute of a picture that tells number and digest of the queries it was made of.
+pub const QUERIES: &str = "photonmap.queries";
+
+/// What a picture of ours says of itself, name by name, in the order in which it was written.
+///
+/// # Errors
+/// If there is none.
+pub fn picture_says(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
+    let comments = describe_picture(path)?.attributes.into_iter().find(|(name, _)| name == "comments");
+    let line = |line: &str| line.split_once(" = ").map(|(name, value)| (name.to_owned(), value.to_owned()));
+    Ok(comments.iter().flat_map(|(_, text)| text.lines()).filter_map(line).collect())
+}
+
+/// The format of a picture that may be a part of one: only EXR says so.
+///
+/// # Errors
+/// As [`picture_format`], and for a preview of a part.
+pub fn check_part_of_picture(path: &Path, part: Option<Part>) -> anyhow::Result<PictureFormat> {
+    let format = picture_format(path)?;
+    match part {
+        Some(part) if format != PictureFormat::Exr => Err(usage(format!(
+            "{}: part {part} makes a part of a picture, and only an .exr says so; pm-view --merge puts them together",
+            path.display()
+        ))),
+        _ => Ok(format),
+    }
 }
 
 /// Writes a picture in the format that its name asks for; into EXR go the version of our programs, and attributes.

@@ -2,7 +2,7 @@
 
 use super::args::Args;
 use super::photons::Photons;
-use crate::cli::{Output, picture_format, read_framed, write_picture};
+use crate::cli::{Output, PART, QUERIES, named, picture_format, picture_says, read_framed, usage, write_picture};
 use anyhow::{Context as _, bail, ensure};
 use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
@@ -10,7 +10,7 @@ use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Tally};
 use pm_gathering::Answered;
 use pm_pictures::{Frame, Picture, PictureFormat};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What pixels, and sums of the cached irradiance, add up to; nothing if no picture is wanted.
 pub(super) struct Films {
@@ -66,15 +66,29 @@ pub(super) fn origin(args: &Args, photons: &Photons, queries: &Header, tally: Ta
         ("photonmap.kernel", format!("{:?}", args.kernel(&photons.header))),
         ("photonmap.edges", format!("{:?}", args.rest.edges)),
         ("photonmap.photons", told(photons.tally)),
-        ("photonmap.queries", told(tally)),
+        (QUERIES, told(tally)),
     ];
     if args.rest.precomputed {
         attributes.push(("photonmap.precomputed", format!("at 1 of {} photons", args.rest.precomputed_share)));
     }
     attributes.extend(queries.meaning(meaning::GATHERS).map(|gathers| ("photonmap.gathers", gathers.to_owned())));
+    attributes.extend(queries.meaning(meaning::PART).map(|part| (PART, part.to_owned())));
     let commands = pm_formats::as_commands(&photons.header.history);
     attributes.extend(commands.lines().map(|command| ("photonmap.history", command.to_owned())));
     attributes
+}
+
+/// To a part of a picture the same part of another is added, so that all parts together have it once.
+fn check_base(base: &Path, attributes: &[(&str, String)]) -> anyhow::Result<()> {
+    let part = attributes.iter().find(|(name, _)| *name == PART).map(|(_, part)| part.clone());
+    let its = picture_says(base)?.into_iter().find(|(name, _)| name == PART).map(|(_, part)| part);
+    let called =
+        |part: &Option<String>| part.as_ref().map_or("of the whole picture".into(), |part| format!("part {part}"));
+    if part == its {
+        return Ok(());
+    }
+    let (base, its, part) = (named(base), called(&its), called(&part));
+    Err(usage(format!("--base {base} is {its}, and the queries are {part}: give the base that was made with them")))
 }
 
 /// Writes the picture to every file that was asked for, with the base picture added.
@@ -88,6 +102,7 @@ pub(super) fn write(
         return Ok(());
     }
     if let Some(base) = &args.rest.base {
+        check_base(base, attributes)?;
         let (added, frame) = read_framed(base)?;
         let own = Frame::plain(picture.size);
         picture.add(&added).with_context(|| base.display().to_string())?;

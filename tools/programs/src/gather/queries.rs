@@ -1,7 +1,7 @@
 //! The queries that are answered, and what stands before them.
 
 use super::args::Args;
-use crate::cli::{Input, named, open_input, usage};
+use crate::cli::{Input, check_part_of_picture, named, open_input, refuse_part, usage};
 use anyhow::Context as _;
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::vocabulary::meaning;
@@ -11,6 +11,12 @@ use pm_formats::{Block, BlockReader, Section, StreamKind, Tally, decode_irradian
 pub(super) fn open(args: &Args) -> anyhow::Result<BlockReader<Input>> {
     let path = &args.first.queries;
     let queries = open_input(path)?.expect_kind(StreamKind::Queries).with_context(|| named(path))?;
+    let header = queries.header();
+    if args.rest.report.is_some() {
+        refuse_part(&named(path), header, "--report describes the lookups of a whole")?;
+    }
+    let part = header.meaning(meaning::PART).and_then(|part| part.parse().ok());
+    args.rest.image.iter().try_for_each(|image| check_part_of_picture(image, part).map(|_| ()))?;
     if let Some(sample) = queries.header().meaning(meaning::SAMPLE).filter(|_| !args.rest.image.is_empty()) {
         let name = named(path);
         return Err(usage(format!(

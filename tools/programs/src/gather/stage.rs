@@ -3,6 +3,7 @@
 use super::answering::Done;
 use super::photons::Photons;
 use crate::cli::Typed;
+use pm_formats::vocabulary::measure;
 use pm_formats::{Number, StageReport};
 use pm_gathering::PrecomputedIrradiance;
 use pm_maps::{AnyMap, Search};
@@ -19,12 +20,12 @@ pub(super) fn stage(
     let counts = done.counts;
     let stage = StageReport::new(typed.program())
         .with("photons", Number::Count(photons.records.len() as u64))
-        .with("queries", Number::Count(done.tally.records))
-        .with("accesses", Number::Count(counts.accesses))
-        .with("attempts", Number::Count(counts.attempts))
+        .with(measure::QUERIES, Number::Count(done.tally.records))
+        .with(measure::ACCESSES, Number::Count(counts.accesses))
+        .with(measure::ATTEMPTS, Number::Count(counts.attempts))
         .with("start_radius", Number::Real(f64::from(search.start)))
-        .with("short_lookups", Number::Count(counts.short))
-        .with("lookups_without_area", Number::Count(counts.no_area));
+        .with(measure::SHORT_LOOKUPS, Number::Count(counts.short))
+        .with(measure::LOOKUPS_WITHOUT_AREA, Number::Count(counts.no_area));
     let stage = map.measures().into_iter().fold(stage, |stage, (name, number)| stage.with(name, number));
-    sites.report(stage.with("lookups_without_site", Number::Count(counts.no_site)))
+    sites.report(stage.with(measure::LOOKUPS_WITHOUT_SITE, Number::Count(counts.no_site)))
 }

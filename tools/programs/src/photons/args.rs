@@ -3,6 +3,7 @@
 use crate::cli::{Common, OutputArgs};
 use crate::setting::SceneArgs;
 use clap::Parser;
+use pm_formats::vocabulary::Part;
 
 /// Trace photons from the lights and store them at diffuse surfaces.
 #[derive(Parser)]
@@ -19,6 +20,12 @@ pub struct Args {
     /// such photons by a cone unless told otherwise.
     #[arg(long)]
     pub(super) caustics: bool,
+    /// Trace one of N parts, such as 2/8, for `pm-view --merge` to put together; each machine may make another
+    ///
+    /// Paths are dealt out, 4,096 at a time. No part knows the numbers of its photons, by which powers are rounded, so that it
+    /// holds them unrounded; and it traces a little more than its share, since the others' photons are not known.
+    #[arg(long, value_name = "I/N", hide_short_help = true)]
+    pub(super) part: Option<Part>,
     /// Seed of the random numbers
     #[arg(long, default_value = "0")]
     pub(super) seed: u64,

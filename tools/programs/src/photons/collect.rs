@@ -1,7 +1,7 @@
 //! Photons of many paths, collected until there are enough.
 
 use anyhow::bail;
-use pm_formats::{BLOCK_RECORDS, Photon};
+use pm_formats::{BLOCK_RECORDS, Photon, UnroundedPhoton};
 use pm_light::transport::{PathPhoton, PhotonPaths};
 use std::ops::Range;
 
@@ -20,6 +20,21 @@ impl Traced {
             traced.path_ends.push(traced.photons.len());
         }
         traced
+    }
+
+    /// How many photons each path stores.
+    pub(super) fn path_sizes(&self) -> impl Iterator<Item = u64> + '_ {
+        let begins = std::iter::once(0).chain(self.path_ends.iter().copied());
+        self.path_ends.iter().zip(begins).map(|(end, begin)| (end - begin) as u64)
+    }
+
+    /// The photons, for a part of a stream.
+    pub(super) fn unrounded(&self) -> impl Iterator<Item = UnroundedPhoton> + '_ {
+        let path_of = (0u32..).zip(self.path_sizes()).flat_map(|(path, n)| std::iter::repeat_n(path, n as usize));
+        self.photons.iter().zip(path_of).map(|(photon, path)| {
+            let (position, power) = (photon.position.into(), photon.power.into());
+            UnroundedPhoton::new(position, power, photon.towards_source.into(), photon.normal.into(), path)
+        })
     }
 }
 

@@ -4,6 +4,7 @@ use super::sample::SampleArgs;
 use crate::cli::{self, Common, OutputArgs, choice};
 use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
+use pm_formats::vocabulary::Part;
 use pm_light::scene::Bounds;
 use pm_light::transport::{GatherOptions, Method, Spread, Strata};
 use std::path::PathBuf;
@@ -60,6 +61,12 @@ pub(super) struct Args {
     light_samples: u32,
     #[command(flatten)]
     pub(super) sample: SampleArgs,
+    /// Cast the rays of one of N parts, such as 2/8, for `pm-view --merge` to put together; each machine may make another
+    ///
+    /// Batches (tiles, scanlines) are dealt out like cards. Order a part by `pm-reorder --per batch`. Its --base picture is
+    /// black where the others' are not, and `pm-view --merge` adds them up. Cached irradiance stands whole in each part.
+    #[arg(long, value_name = "I/N", hide_short_help = true)]
+    pub(super) part: Option<Part>,
     /// Seed of the random numbers
     #[arg(long, default_value = "0")]
     pub(super) seed: u64,
@@ -114,7 +121,7 @@ impl Args {
     /// Refuses what can be seen to be asked wrongly before anything is read.
     pub(super) fn check(&self) -> anyhow::Result<()> {
         if let Some(base) = &self.base {
-            cli::picture_format(base)?;
+            cli::check_part_of_picture(base, self.part)?;
         }
         if u64::from(self.samples) * u64::from(self.gathers) > MOST_GATHERS {
             return Err(cli::usage(format!("--samples times --gathers is more than {MOST_GATHERS}")));

@@ -1,9 +1,10 @@
 //! The base picture: light that needs no query, direct and emitted.
 
-use crate::cli::{Output, create_output, write_picture};
+use crate::cli::{Output, PART, create_output, write_picture};
 use anyhow::Context as _;
 use glam::Vec3;
 use pm_film::film::{Film, Overflow};
+use pm_formats::vocabulary::Part;
 use pm_light::scene::Scene;
 use pm_pictures::Picture;
 use std::path::{Path, PathBuf};
@@ -14,14 +15,15 @@ pub(super) struct Base {
     file: Output,
     size: [u32; 2],
     film: Film,
+    part: Option<Part>,
 }
 
 impl Base {
     /// A black picture of a scene, to be written to a file.
-    pub(super) fn create(path: &Path, size: [u32; 2], scene: &Scene) -> anyhow::Result<Self> {
+    pub(super) fn create(path: &Path, size: [u32; 2], scene: &Scene, part: Option<Part>) -> anyhow::Result<Self> {
         let pixels = usize::try_from(u64::from(size[0]) * u64::from(size[1]))?;
         let file = create_output(path)?;
-        Ok(Self { path: path.to_owned(), file, size, film: Film::new(pixels, light_scale(scene)) })
+        Ok(Self { path: path.to_owned(), file, size, film: Film::new(pixels, light_scale(scene)), part })
     }
 
     /// Adds what [`Exposure::light`] collected.
@@ -31,8 +33,9 @@ impl Base {
 
     /// Writes the picture.
     pub(super) fn finish(self) -> anyhow::Result<()> {
-        let Self { path, mut file, size, film } = self;
-        write_picture(&Picture { size, pixels: film.pixels() }, &path, &mut file, &[])?;
+        let Self { path, mut file, size, film, part } = self;
+        let attributes: Vec<_> = part.iter().map(|part| (PART, part.to_string())).collect();
+        write_picture(&Picture { size, pixels: film.pixels() }, &path, &mut file, &attributes)?;
         file.commit().with_context(|| path.display().to_string())
     }
 }

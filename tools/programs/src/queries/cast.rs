@@ -4,6 +4,7 @@ use super::base::Exposure;
 use super::sample::{Job, Sample};
 use pm_film::film::Overflow;
 use pm_formats::Query;
+use pm_formats::vocabulary::Part;
 use pm_light::transport::{CacheRecords, GatherRays, PixelCaster, RayCounts};
 use pm_orders::Generative;
 use pm_parallel::in_order;
@@ -19,6 +20,8 @@ pub(super) struct Casting<'a> {
     pub(super) rays: &'a GatherRays<'a>,
     pub(super) cache: Option<&'a CacheRecords>,
     pub(super) sample: &'a Sample,
+    /// The part that is made, if not all is.
+    pub(super) part: Option<Part>,
     pub(super) order: &'a dyn Generative,
     /// Width and height of the picture.
     pub(super) size: [u32; 2],
@@ -43,7 +46,7 @@ impl Casting<'_> {
         threads: usize,
         mut done: impl FnMut(Cast, &Job) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        let mut jobs = self.sample.jobs(self.order, self.size);
+        let mut jobs = self.sample.jobs(self.order, self.size, self.part);
         let (rays_a_pixel, worth) = self.worth_a_job();
         in_order(
             threads,

@@ -1,7 +1,7 @@
 //! Which of a picture's rays are cast: all, some whole batches, or windows of consecutive rays.
 
 use crate::cli::usage;
-use pm_formats::vocabulary::{SampleUnit, meaning, measure};
+use pm_formats::vocabulary::{Part, SampleUnit, meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, StageReport};
 use pm_light::transport::{GatherRays, Piece, RayCounts, RayPlan};
 use pm_orders::{Generative, Span};
@@ -88,8 +88,21 @@ impl SampleArgs {
 }
 
 impl Sample {
-    /// What is cast, in order.
-    pub(super) fn jobs<'a>(&'a self, order: &'a dyn Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + 'a> {
+    /// What is cast, in order: all of it, or what is of a part.
+    pub(super) fn jobs<'a>(
+        &'a self,
+        order: &'a dyn Generative,
+        size: [u32; 2],
+        part: Option<Part>,
+    ) -> Box<dyn Iterator<Item = Job> + 'a> {
+        let all = self.all_jobs(order, size);
+        match part {
+            None => all,
+            Some(part) => Box::new(all.filter(move |job| part.has(job.meta.batch))),
+        }
+    }
+
+    fn all_jobs<'a>(&'a self, order: &'a dyn Generative, size: [u32; 2]) -> Box<dyn Iterator<Item = Job> + 'a> {
         let batch = |batch, warm_up| BlockMeta { batch, warm_up, records: 0 };
         match self {
             Self::All => {
@@ -120,10 +133,11 @@ impl Sample {
     }
 
     /// Number of pixels, or else of rays, that [`Job::size`] counts.
-    pub(super) fn size(&self, order: &dyn Generative, size: [u32; 2]) -> u64 {
+    pub(super) fn size(&self, order: &dyn Generative, size: [u32; 2], part: Option<Part>) -> u64 {
         match self {
+            _ if part.is_some() => self.jobs(order, size, part).map(|job| job.size()).sum(),
             Self::All => u64::from(size[0]) * u64::from(size[1]),
-            Self::Batches { .. } => self.jobs(order, size).map(|job| job.size()).sum(),
+            Self::Batches { .. } => self.jobs(order, size, None).map(|job| job.size()).sum(),
             Self::Windows { measured, .. } => measured.iter().map(|rays| rays.end - self.warm_up(rays).start).sum(),
         }
     }

@@ -1,7 +1,7 @@
 //! A trace of ours for another simulator.
 
 use super::Args;
-use crate::cli::{Progress, create_output, named, open_input, usage};
+use crate::cli::{Progress, create_output, named, open_input, refuse_part, usage};
 use anyhow::Context as _;
 use pm_exchange::traces::{Exporter, TraceExport};
 use pm_formats::trace::TraceReader;
@@ -18,6 +18,7 @@ pub(super) fn export(format: &'static dyn TraceExport, args: &Args) -> anyhow::R
     }
     let name = named(path);
     let mut trace = TraceReader::from_blocks(open_input(path)?).context(name.clone())?;
+    refuse_part(&name, trace.header(), "other formats do not say so")?;
     let regions = trace.header().regions.clone();
     let output = match format.is_text() {
         true => create_output(args.output.output.as_deref().unwrap_or(Path::new("-")))?,

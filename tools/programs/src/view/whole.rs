@@ -3,7 +3,7 @@
 use crate::cli::Progress;
 use indicatif::{BinaryBytes, HumanCount};
 use pm_formats::trace::{Access, TraceReader, TraceSink};
-use pm_formats::{BlockReader, End, Number, Photon, Query, RecordReader, StreamKind};
+use pm_formats::{BlockReader, End, Number, Photon, Query, Record, RecordReader, StreamKind, UnroundedPhoton};
 use std::io::{self, Read, Write};
 
 /// A stream that was read to its end block and is whole.
@@ -30,20 +30,9 @@ pub(super) fn read_to_end<R: Read>(stream: BlockReader<R>, quiet: bool) -> pm_fo
     };
     let mut counter = Counter(0);
     let (end, accesses) = match stream.kind() {
-        StreamKind::Photons => {
-            let mut reader = RecordReader::<Photon, _>::from_blocks(stream)?;
-            while let Some((meta, records)) = reader.next_block()? {
-                block(meta.batch, records.len() as u64);
-            }
-            (reader.end()?.clone(), None)
-        }
-        StreamKind::Queries => {
-            let mut reader = RecordReader::<Query, _>::from_blocks(stream)?;
-            while let Some((meta, records)) = reader.next_block()? {
-                block(meta.batch, records.len() as u64);
-            }
-            (reader.end()?.clone(), None)
-        }
+        StreamKind::Photons => (records::<Photon, _>(stream, block)?, None),
+        StreamKind::Queries => (records::<Query, _>(stream, block)?, None),
+        StreamKind::UnroundedPhotons => (records::<UnroundedPhoton, _>(stream, block)?, None),
         StreamKind::Trace => {
             let mut reader = TraceReader::from_blocks(stream)?;
             while let Some(meta) = reader.replay_block(&mut counter)? {
@@ -53,6 +42,15 @@ pub(super) fn read_to_end<R: Read>(stream: BlockReader<R>, quiet: bool) -> pm_fo
         }
     };
     Ok(Whole { end, batches, blocks, accesses })
+}
+
+/// Reads records to their end block, and tells of each block its batch and their number.
+fn records<T: Record, R: Read>(stream: BlockReader<R>, mut block: impl FnMut(u64, u64)) -> pm_formats::Result<End> {
+    let mut reader = RecordReader::<T, _>::from_blocks(stream)?;
+    while let Some((meta, records)) = reader.next_block()? {
+        block(meta.batch, records.len() as u64);
+    }
+    reader.end().cloned()
 }
 
 struct Counter(u64);
