@@ -11,7 +11,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability bench man options test-cluster install dist clean clean-streams
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability faults licences bench man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -128,6 +128,12 @@ stability: ## Photon maps under stress: out/stability.txt, a table of structures
 	mkdir -p out
 	PM_STABILITY_TABLE=$(CURDIR)/out/stability.txt $(CARGO) test -q -p pm-maps --release --lib stability
 	@cat out/stability.txt
+
+faults: programs ## Kills, full disks, refused memory and threads, two makes, folders of others
+	scripts/faults.sh $(BIN)
+
+licences: ## What may be built upon: licences, sources, versions (needs cargo-deny)
+	$(CARGO) deny --config scripts/deny.toml check licenses bans sources
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man

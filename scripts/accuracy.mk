@@ -140,4 +140,4 @@ $(ACCURACY)/frontier.csv: out/recipes.csv $(if $(MITSUBA),out/pathtracer.csv) $(
 	@$(BIN)/$(JOIN) $(inputs) -o $@
 
 $(ACCURACY)/report.html: scripts/accuracy.toml $(ACCURACY)/frontier.csv $(call made_with,REPORTING)
-	$(BIN)/pm-chart -q --page $< -o $@
+	$(BIN)/pm-chart -q --anyway --page $< -o $@

@@ -336,6 +336,39 @@ fn what_is_not_there_is_said_with_its_line_and_nothing_is_written() {
     assert!(outcome.code == 2 && outcome.stderr.contains("--page"), "{}", outcome.stderr);
 }
 
+#[test]
+fn a_page_reads_its_own_folder_only() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("pages/own")).unwrap();
+    folder.write("secret.csv", "a,b\n1,2\n");
+    folder.write("pages/own/open.csv", "a,b\n1,2\n");
+    std::os::unix::fs::symlink("../../secret.csv", folder.path("pages/own/link.csv")).unwrap();
+    for (table, inside) in [
+        ("open.csv", true),
+        ("../own/open.csv", true),
+        ("../../secret.csv", false),
+        ("link.csv", false),
+        ("/dev/null", false),
+    ] {
+        let page = format!(
+            "title = 'A'\nfolder = 'own'\n\n[[section]]\nheading = 'B'\n\n[[section.table]]\ntables = ['{table}']\n"
+        );
+        folder.write("pages/page.toml", page);
+        let line = "pm-chart --page pages/page.toml -o page.html";
+        let outcome = folder.run(line);
+        if inside {
+            assert_eq!(outcome.code, 0, "{table}: {}", outcome.stderr);
+        } else {
+            assert!(outcome.fails(2).contains("outside the folder of the page"), "{table}: {}", outcome.stderr);
+            assert!(!folder.names().contains(&"page.html".to_owned()));
+            let anyway = folder.run(&format!("{line} --anyway"));
+            assert!(anyway.code == 0 || table == "/dev/null", "{table}: {}", anyway.stderr);
+        }
+        let _ = std::fs::remove_file(folder.path("page.html"));
+    }
+    assert_eq!(folder.run("pm-chart --anyway -x a -y b secret.csv").code, 2, "an option that does nothing");
+}
+
 /// Measures a page in a browser: how many charts, in how many of them just one drawing is seen and within the width, and
 /// whether the page is wider than the window.
 const MEASURE: &str = "<script>addEventListener('load', () => {

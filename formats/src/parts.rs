@@ -7,6 +7,7 @@ mod end;
 mod error;
 mod header;
 mod history;
+mod rules;
 mod source;
 #[cfg(test)]
 mod tests;

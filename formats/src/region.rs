@@ -48,16 +48,20 @@ impl Region {
         self.coding == Coding::Addresses
     }
 
-    /// Whether `len` bytes at `offset` lie within it; a record of no bytes lies at its offset.
+    /// Whether `len` bytes at `offset`, no more than [`MAX_ACCESS`], lie within it; a record of no bytes lies at its offset.
     #[inline]
     #[must_use]
     pub fn holds(&self, offset: u64, len: u32) -> bool {
         match self.coding {
+            _ if len > MAX_ACCESS => false,
             Coding::Addresses => offset.checked_add(u64::from(len.max(1) - 1)).is_some(),
             _ => offset.checked_add(u64::from(len)).is_some_and(|end| end <= self.size),
         }
     }
 }
+
+/// Longest access, and longest record, in bytes: whoever reads a damaged length meets longer ones soon, and each byte costs time.
+pub const MAX_ACCESS: u32 = 1 << 24;
 
 /// Granularity at which regions are kept apart in the traced address space.
 pub const REGION_ALIGNMENT: u64 = 4096;
@@ -95,6 +99,9 @@ pub(crate) fn check_regions(regions: &[Region]) -> std::result::Result<(), &'sta
     for region in regions {
         let end = region.base.checked_add(region.size).filter(|&end| end < 1 << 62);
         let end = end.ok_or("a region ends beyond the address space")?;
+        if region.record_size > MAX_ACCESS {
+            return Err("a region has records of more than 2^24 bytes");
+        }
         if !region.base.is_multiple_of(REGION_ALIGNMENT) {
             return Err("a region does not begin on a page");
         }

@@ -9,7 +9,7 @@ mod reader;
 mod varint;
 mod writer;
 
-pub use crate::region::{Coding, REGION_ALIGNMENT, Region, lay_out};
+pub use crate::region::{Coding, MAX_ACCESS, REGION_ALIGNMENT, Region, lay_out};
 pub use access::{Access, AccessKind, TraceSink};
 pub use decode::decode_searches;
 pub use encode::BlockEncoder;

@@ -29,6 +29,8 @@ def read(source):
             stream.photons()
         elif stream.kind == "queries":
             stream.queries()
+        elif stream.kind == "photons of a part":
+            stream.photons_of_a_part()
         else:
             accesses = sum(len(block) for block in stream.accesses())
         return stream.end.records, accesses, f"{stream.end.digest:032x}"

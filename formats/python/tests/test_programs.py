@@ -34,7 +34,8 @@ class Programs(unittest.TestCase):
             self.run_in(folder, "pm-queries -q --size 20x20 --gathers 9 --order tiled --irradiance-cache 0.2 -o cached.pmq")
             self.run_in(folder, "pm-queries -q --size 20x20 --gathers 4 -o q.pmq")
             self.run_in(folder, "pm-reorder -q hilbert q.pmq -o h.pmq")
-            for name in ("map.pmp", "cached.pmq", "q.pmq", "h.pmq"):
+            self.run_in(folder, "pm-photons -q -n 5000 --part 1/2 -o part.pmp")
+            for name in ("map.pmp", "cached.pmq", "q.pmq", "h.pmq", "part.pmp"):
                 self.agrees(folder, name)
             for options in MAPS:
                 self.run_in(folder, f"pm-gather -q map.pmp h.pmq -k 20 --map {options} -o t.pmt")

@@ -127,6 +127,7 @@ impl<R: Read> BlockReader<R> {
             return Err(self.incomplete());
         }
         let block = Block::of_header(&header, payload).map_err(|what| self.damaged(what))?;
+        block.check_memory()?;
         self.sequence.next(block.section, block.meta).map_err(|what| self.damaged(what))?;
         match block.section {
             Section::Records | Section::IrradianceRecords | Section::PixelWeights => {

@@ -1,8 +1,8 @@
 //! What the stages of the whole measured, from what those of its parts did.
 
 use super::PartsError;
+use super::rules::{OfParts, of_parts};
 use crate::container::{End, Number, StageReport};
-use crate::vocabulary::measure::{OfParts, of_parts};
 
 /// The stages of the whole.
 ///

@@ -7,7 +7,7 @@ use super::varint::{push, zigzag};
 use crate::container::{Block, BlockMeta};
 use crate::digest::Tally;
 use crate::error::{Error, Result};
-use crate::region::{Coding, Region};
+use crate::region::{Coding, MAX_ACCESS, Region};
 
 /// zstd level of trace blocks: decision bits gain a third at level 3 and little beyond.
 const LEVEL: i32 = 3;
@@ -24,6 +24,8 @@ pub struct BlockEncoder<'a> {
     others: Vec<u8>,
     last_pixel: u32,
     tally: Tally,
+    /// Bytes of the longest access.
+    longest: u32,
     current: Current,
     scratch: Vec<u8>,
 }
@@ -54,6 +56,7 @@ impl<'a> BlockEncoder<'a> {
             others: vec![],
             last_pixel: 0,
             tally: Tally::default(),
+            longest: 0,
             current: Current::default(),
             scratch: vec![],
         }
@@ -106,6 +109,7 @@ impl<'a> BlockEncoder<'a> {
     /// The search makes an access of any kind.
     #[expect(clippy::cast_possible_wrap, reason = "offsets lie within a region, far below 2^63")]
     pub fn access(&mut self, access: Access) {
+        self.longest = self.longest.max(access.len);
         if self.regions[usize::from(access.region)].is_addresses() {
             return self.address(access);
         }
@@ -171,11 +175,20 @@ impl<'a> BlockEncoder<'a> {
         self.tally.count(scratch);
     }
 
+    /// As if no access had been too long.
+    #[cfg(test)]
+    pub(super) fn forget_lengths(&mut self) {
+        self.longest = 0;
+    }
+
     /// Compresses the searches into a block.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if they are too many for one.
+    /// [`Error::Invalid`] if they are too many for one, or an access is longer than [`MAX_ACCESS`].
     pub fn finish(self, meta: BlockMeta) -> Result<(Block, Tally)> {
+        if self.longest > MAX_ACCESS {
+            return Err(Error::Invalid(format!("an access of {} bytes; the most is {MAX_ACCESS}", self.longest)));
+        }
         let planes = [&self.heads, &self.destinations, &self.walks.bytes, &self.others];
         let mut payload = Vec::with_capacity(12 + planes.iter().map(|plane| plane.len()).sum::<usize>());
         for plane in &planes[..3] {

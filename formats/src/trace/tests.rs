@@ -150,3 +150,68 @@ fn regions_that_overlap_or_are_too_small_are_refused() {
     assert!(refused(|r| r[0].size = 100).contains("smaller"));
     assert!(refused(|r| r[1].size = u64::MAX).contains("address space"));
 }
+
+#[test]
+fn accesses_longer_than_the_limit_are_neither_written_nor_read() {
+    for regions in [vec![Region::addresses("x")], lay_out([("x".to_owned(), 1 << 33, 64, Coding::Records)])] {
+        let written = |len: u32| {
+            let mut encoder = BlockEncoder::new(&regions);
+            encoder.begin(&[]);
+            encoder.access(Access { kind: AccessKind::Write, region: 0, len, offset: 5 });
+            encoder.end();
+            // As a program would write it that knows no limit.
+            encoder.forget_lengths();
+            encoder.finish(BlockMeta::default()).unwrap().0
+        };
+        assert!(decode_searches(&written(MAX_ACCESS), &regions, &mut Collect::default()).is_some());
+        for len in [MAX_ACCESS + 1, u32::MAX] {
+            assert!(decode_searches(&written(len), &regions, &mut Collect::default()).is_none(), "{len}");
+            let mut encoder = BlockEncoder::new(&regions);
+            encoder.begin(&[]);
+            encoder.access(Access::read(0, 0, len));
+            encoder.end();
+            let said = encoder.finish(BlockMeta::default()).unwrap_err().to_string();
+            assert!(said.contains(&format!("an access of {len} bytes; the most is 16777216")), "{said}");
+        }
+    }
+    let long = lay_out([("x".to_owned(), 1 << 33, MAX_ACCESS + 1, Coding::Records)]);
+    assert_eq!(crate::region::check_regions(&long), Err("a region has records of more than 2^24 bytes"));
+}
+
+#[test]
+fn an_archive_holds_the_same_searches_in_fewer_bytes() {
+    let regions = lay_out([("x".to_owned(), 1 << 20, 16, Coding::Records)]);
+    let mut writer =
+        TraceWriter::new(vec![], &crate::Header { regions: regions.clone(), ..crate::Header::empty() }).unwrap();
+    for batch in 0..3 {
+        let mut encoder = BlockEncoder::new(&regions);
+        for search in 0..500u32 {
+            encoder.begin(&[search]);
+            (0..40).for_each(|i| {
+                encoder.access(Access::read(0, u64::from((search * search + i * i * 7) % 60_000) * 16, 16))
+            });
+            encoder.end();
+        }
+        let (block, tally) = encoder.finish(BlockMeta { batch, ..BlockMeta::default() }).unwrap();
+        writer.write(&block, tally).unwrap();
+    }
+    let plain = writer.finish(vec![]).unwrap();
+    let archive = |bytes: &[u8]| {
+        let mut reader = crate::trace::TraceReader::new(bytes).unwrap();
+        let mut writer = TraceWriter::new(vec![], reader.header()).unwrap();
+        while let Some((block, tally)) = reader.next_archived().unwrap() {
+            writer.write(&block, tally).unwrap();
+        }
+        writer.finish(reader.end().unwrap().stages.clone()).unwrap()
+    };
+    let all = |bytes: &[u8]| {
+        let mut reader = crate::trace::TraceReader::new(bytes).unwrap();
+        let mut found = Collect::default();
+        while reader.replay_block(&mut found).unwrap().is_some() {}
+        (found.0, reader.end().unwrap().clone())
+    };
+    let kept = archive(&plain);
+    assert!(kept.len() < plain.len(), "{} {}", kept.len(), plain.len());
+    assert!(all(&kept) == all(&plain));
+    assert_eq!(archive(&kept), kept, "an archive is one");
+}

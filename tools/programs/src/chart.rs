@@ -18,8 +18,12 @@ use std::path::Path;
 /// If it was asked wrongly, a table cannot be read or drawn, or the output cannot be written.
 pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     check_ending(&args)?;
+    // A page excludes what a chart needs, so that the parser cannot tell.
+    if args.anyway && args.page.is_none() {
+        return Err(usage("--anyway is for --page: a chart reads what it is given"));
+    }
     let text = match &args.page {
-        Some(path) => page::described(path)?,
+        Some(path) => page::described(path, args.anyway)?,
         None if args.output.output.as_ref().is_some_and(|path| path.extension().is_some_and(|e| e == "html")) => {
             page::of_chart(&args, typed)?
         }

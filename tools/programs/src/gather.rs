@@ -10,13 +10,14 @@ mod queries;
 mod scenes;
 mod stage;
 
-use crate::cli::{Outcome, Output, Program, Typed, create_output, named, refuse_part, usage};
+use crate::cli::{Outcome, Output, Program, Typed, create_output, named, refuse_part, room_for, usage};
 use answering::{Asked, answer_all};
 use anyhow::Context as _;
 use args::Args;
 use building::Building;
 use description::Description;
 use photons::Photons;
+pub(crate) use pictures::FILM_BYTES;
 use pictures::Films;
 use pm_film::film::Film;
 use pm_formats::trace::TraceWriter;
@@ -44,6 +45,9 @@ fn program(structures: &Registry<dyn Structure>) -> Program<Args> {
     let (command, read) = args::command(structures);
     Program::new("pm-gather", command, read)
 }
+
+/// Bytes of a photon in the larger maps, while they are built.
+const MAP_BYTES: u64 = 160;
 
 fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     args.check()?;
@@ -131,6 +135,8 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
 
 /// The map that was asked for, and what building it took, if that is to be told.
 fn build(args: &Args, photons: &Photons) -> anyhow::Result<(Box<dyn AnyMap>, Option<Building>)> {
+    room_for(photons.records.len() as u64 * MAP_BYTES, "a map of these photons")
+        .with_context(|| named(&args.first.photons))?;
     let build = || args.map.entry.build(Setting { values: &args.map.values, photons: &photons.records, k: args.k() });
     let built = match args.rest.report {
         Some(_) => Building::measure(build).map(|(map, building)| (map, Some(building))),

@@ -1,6 +1,7 @@
 //! `pm-view`: looks into streams, at what they are about, where they came from, whether they are whole, what their records
 //! say; compares pictures; reads and writes other programs' data.
 
+mod archive;
 mod args;
 mod export;
 mod header;
@@ -46,6 +47,9 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     if args.merge {
         return merge::merge(&args);
+    }
+    if args.archive {
+        return archive::archive(&args);
     }
     if let Some(sheet) = &args.sheet {
         return pictures::make_sheet(sheet, &args);

@@ -4,7 +4,7 @@ use super::questions::{Questions, asked_wrongly};
 use super::replay::{Replay, Waiting};
 use super::results::{Results, Source};
 use super::{Args, windowed};
-use crate::cli::{Progress, named, open_bytes, usage};
+use crate::cli::{Progress, named, open_bytes, room_for, usage};
 use anyhow::Context as _;
 use pm_caches::{Lanes, Measures, Simulation, WindowError, Windows};
 use pm_exchange::traces::{self, Opened, Trace, TraceImport};
@@ -101,6 +101,7 @@ fn simulate_ours<R: Read>(
     let regions = trace.header().regions.clone();
     let configs = &questions.caches_of(args, &regions)?;
     let of_addresses = regions.iter().any(Region::is_addresses);
+    room_for_lines(&regions, questions)?;
     if of_addresses && args.lanes.iter().any(|&lanes| lanes > 1) {
         return Err(usage(NO_SEARCHES));
     }
@@ -135,6 +136,17 @@ fn simulate_ours<R: Read>(
         results.add(args, &source, lanes, simulation.finish().context("temporary file")?.findings())?;
     }
     Ok(())
+}
+
+/// Lines of a small size, of all regions, that tables are made for: some bytes each for every cache, and for what is asked besides.
+fn room_for_lines(regions: &[Region], questions: &Questions) -> anyhow::Result<()> {
+    let bytes =
+        regions.iter().filter(|region| !region.is_addresses()).map(|region| region.size).fold(0, u64::saturating_add);
+    // More lines than there are numbers are refused by whoever numbers them.
+    let line = |line: u32| (bytes / u64::from(line.max(1))).min(1 << 31) * 8;
+    let caches = questions.caches.iter().map(|cache| line(cache.line_bytes()));
+    let curves = questions.measures.curves.iter().map(|&bytes| line(bytes) * 2);
+    room_for(caches.chain(curves).fold(0, u64::saturating_add), "what is known of each line of the trace's memory")
 }
 
 /// Replays a trace to its end.

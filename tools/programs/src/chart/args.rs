@@ -68,6 +68,9 @@ pub struct Args {
     #[arg(long, value_name = "FILE",
         conflicts_with_all = ["x", "y", "by", "error", "only", "reference", "points", "frontier", "title", "size"])]
     pub(super) page: Option<PathBuf>,
+    /// Let the page read files outside its own folder, too
+    #[arg(long, hide_short_help = true)]
+    pub(super) anyway: bool,
     #[command(flatten)]
     pub(super) output: OutputArgs,
     #[command(flatten)]

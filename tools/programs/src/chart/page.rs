@@ -14,7 +14,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// If the description cannot be read, or asks for what is not there.
-pub(super) fn described(path: &Path) -> anyhow::Result<String> {
+pub(super) fn described(path: &Path, anyway: bool) -> anyhow::Result<String> {
     let name = named(path);
     let text = String::from_utf8(bytes(path)?).map_err(|_| anyhow!("{name}: it is not UTF-8"))?;
     let page = |error: ReportError| match error.asked_wrongly() {
@@ -24,6 +24,8 @@ pub(super) fn described(path: &Path) -> anyhow::Result<String> {
     let description = Description::parse(&text).map_err(page)?;
     let own = path.parent().filter(|_| path != Path::new("-")).unwrap_or(Path::new(""));
     let sheets = Sheets::of_folder(&own.join(&description.folder));
+    let here = if own.as_os_str().is_empty() { Path::new(".") } else { own };
+    let sheets = if anyway { sheets } else { sheets.within(here) };
     description.html(&sheets, &generator()).map_err(page)
 }
 

@@ -2,7 +2,7 @@
 
 use super::claims;
 use super::usage::usage;
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use pm_exchange::BadInput;
 use pm_formats::{BlockReader, End, Header, Record, RecordReader, Tally};
 use std::fs::File;
@@ -116,6 +116,9 @@ pub fn read_whole<T: Record>(path: &Path) -> anyhow::Result<Whole<T>> {
     let mut input = RecordReader::<T, _>::from_blocks(open_input(path)?).with_context(|| named(path))?;
     let mut records = vec![];
     while let Some((_, block)) = input.next_block().with_context(|| named(path))? {
+        if records.try_reserve(block.len()).is_err() {
+            bail!("{}: not enough memory for more than its first {} records", named(path), records.len());
+        }
         records.extend(block);
     }
     let end = input.end()?.clone();

@@ -2,7 +2,9 @@
 
 use super::args::Args;
 use super::photons::Photons;
-use crate::cli::{Output, PART, QUERIES, named, picture_format, picture_says, read_framed, usage, write_picture};
+use crate::cli::{
+    Output, PART, QUERIES, named, picture_format, picture_says, read_framed, room_for, usage, write_picture,
+};
 use anyhow::{Context as _, bail, ensure};
 use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
@@ -11,6 +13,9 @@ use pm_formats::{Header, Tally};
 use pm_gathering::Answered;
 use pm_pictures::{Frame, Picture, PictureFormat};
 use std::path::{Path, PathBuf};
+
+/// Bytes of a pixel on the film, and then three times in the picture's file while that is written.
+pub(crate) const FILM_BYTES: u64 = 3 * 16 + 3 * 12;
 
 /// What pixels, and sums of the cached irradiance, add up to; nothing if no picture is wanted.
 pub(super) struct Films {
@@ -23,6 +28,7 @@ impl Films {
     pub(super) fn new(wanted: bool, queries: &Header, cache: &CachedIrradiance, scale: f64) -> anyhow::Result<Self> {
         let pixels = if wanted { usize::try_from(queries.pixels())? } else { 0 };
         let sums = if wanted { cache.sums() } else { 0 };
+        room_for((pixels as u64 + sums as u64).saturating_mul(FILM_BYTES), "the picture")?;
         Ok(Self { pixels: Film::new(pixels, scale), sums: Film::new(sums, scale) })
     }
 

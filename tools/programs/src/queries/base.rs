@@ -1,6 +1,7 @@
 //! The base picture: light that needs no query, direct and emitted.
 
-use crate::cli::{Output, PART, create_output, write_picture};
+use crate::cli::{Output, PART, create_output, room_for, write_picture};
+use crate::gather::FILM_BYTES;
 use anyhow::Context as _;
 use glam::Vec3;
 use pm_film::film::{Film, Overflow};
@@ -22,6 +23,7 @@ impl Base {
     /// A black picture of a scene, to be written to a file.
     pub(super) fn create(path: &Path, size: [u32; 2], scene: &Scene, part: Option<Part>) -> anyhow::Result<Self> {
         let pixels = usize::try_from(u64::from(size[0]) * u64::from(size[1]))?;
+        room_for((pixels as u64).saturating_mul(FILM_BYTES), "the base picture")?;
         let file = create_output(path)?;
         Ok(Self { path: path.to_owned(), file, size, film: Film::new(pixels, light_scale(scene)), part })
     }

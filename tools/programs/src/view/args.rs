@@ -36,13 +36,17 @@ pub struct Args {
     /// Print records as tab-separated text, the first N or all
     #[arg(long, value_name = "N", group = "what", num_args = 0..=1, require_equals = true, default_missing_value = "18446744073709551615")]
     pub(super) records: Option<u64>,
-    /// Put all parts of a stream together, which the programs made with --part, or of a picture in EXR: it is, byte for byte,
-    /// what one machine would have made
+    /// Put together all parts of a stream or picture, made by --part
     ///
-    /// Every part is needed, once. The history is that of the whole; where files on the way had different names it reads as one
+    /// Every part is needed, once. What is written is, byte for byte, what one machine would have made. The history is that of the whole; where files on the way had different names it reads as one
     /// pipe.
     #[arg(long, group = "what")]
     pub(super) merge: bool,
+    /// Write a trace for keeping, in fewer bytes: slow to write, and read as any other
+    ///
+    /// Its searches, digest and history are the same. A trace in Hilbert order becomes a seventh smaller, others 3 %.
+    #[arg(long, group = "what", hide_short_help = true)]
+    pub(super) archive: bool,
     /// Make a stream of the rows of a file, CSV (commas, semicolons, tabs or blanks) or raw numbers, or of another simulator's
     /// trace
     #[arg(long, value_name = "KIND", group = "what")]
@@ -111,7 +115,6 @@ Examples:
   pm-queries | pm-reorder hilbert | pm-view --records=10
   pm-view --check out/map.pmp out/hilbert.pmq
   pm-view --export dramsim3 --line 64 out/hilbert.pmt -o hilbert.txt
-  pm-view --merge part-*.pmq -o whole.pmq
   pm-view --import photons photons.csv --emitted 100000 -o map.pmp";
 
 fn stops(text: &str) -> Result<f32, String> {

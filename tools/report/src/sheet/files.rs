@@ -11,6 +11,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug, Default)]
 pub struct Sheets {
     folder: PathBuf,
+    /// The folder beyond which nothing is read, if there is one.
+    bounds: Option<PathBuf>,
     read: Arc<Mutex<BTreeMap<String, Arc<Sheet>>>>,
 }
 
@@ -19,6 +21,12 @@ impl Sheets {
     #[must_use]
     pub fn of_folder(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), ..Self::default() }
+    }
+
+    /// The same, of which none lies outside `bounds`, wherever links lead; and only files are read, no devices.
+    #[must_use]
+    pub fn within(self, bounds: &Path) -> Self {
+        Self { bounds: Some(bounds.to_owned()), ..self }
     }
 
     /// A table that is there already, as if it were a file of this name.
@@ -46,8 +54,21 @@ impl Sheets {
     /// The bytes of any file.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If it cannot be read, or lies where nothing is to be read.
     pub fn bytes(&self, name: &str) -> Result<Vec<u8>, ReportError> {
-        fs::read(self.folder.join(name)).map_err(|error| ReportError::read(format!("{name}: {error}")))
+        let failed = |error: std::io::Error| ReportError::read(format!("{name}: {error}"));
+        let path = self.folder.join(name);
+        if let Some(bounds) = &self.bounds {
+            let (file, folder) = (fs::canonicalize(&path).map_err(failed)?, fs::canonicalize(bounds).map_err(failed)?);
+            if !file.starts_with(folder) {
+                return Err(ReportError::asked(format!(
+                    "{name}: outside the folder of the page, whose files alone are read; --anyway reads it too"
+                )));
+            }
+            if !fs::metadata(&file).map_err(failed)?.is_file() {
+                return Err(ReportError::asked(format!("{name}: no file")));
+            }
+        }
+        fs::read(path).map_err(failed)
     }
 }
