@@ -1,11 +1,11 @@
 //! A block: a run of records of one batch, compressed and checksummed.
 
 use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK};
-use super::packing::{compress, decompress};
+use super::packing::{compress, decompress, prepare};
 use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
-use zstd::zstd_safe::{CCtx, CParameter, DCtx};
+use zstd::zstd_safe::CParameter;
 
 /// zstd level of blocks that are kept.
 const ARCHIVE_LEVEL: i32 = 19;
@@ -68,10 +68,6 @@ impl Block {
             return Err(Error::Invalid(format!("a block of {} bytes; the most is {MAX_BLOCK}", payload.len())));
         }
         let raw_len = u32::try_from(payload.len()).expect("MAX_BLOCK fits in 32 bits");
-        // The library would panic where the system refuses its memory.
-        if CCtx::try_create().is_none() {
-            return Err(no_memory());
-        }
         let packed = pack(payload)?;
         let compressed = packed.len() < payload.len();
         let bytes = if compressed { packed } else { payload.to_vec() };
@@ -83,7 +79,7 @@ impl Block {
     /// # Errors
     /// [`Error::Io`] if there is none.
     pub(super) fn check_memory(&self) -> Result<()> {
-        if self.compressed && DCtx::try_create().is_none() { Err(no_memory()) } else { Ok(()) }
+        if self.compressed { Ok(prepare()?) } else { Ok(()) }
     }
 
     /// The payload, into a buffer of exactly its size; `None` if it does not fit.
@@ -141,8 +137,4 @@ impl Block {
         let BlockHeader { section, meta, compressed, raw_len, .. } = *header;
         Ok(Self { section, meta, compressed, raw_len, bytes })
     }
-}
-
-fn no_memory() -> Error {
-    Error::Io(std::io::Error::new(std::io::ErrorKind::OutOfMemory, "not enough memory"))
 }

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::io;
 use zstd::bulk::{Compressor, Decompressor};
+use zstd::zstd_safe::{CCtx, DCtx};
 
 thread_local! {
     static COMPRESSOR: RefCell<Option<Compressor<'static>>> = const { RefCell::new(None) };
@@ -14,11 +15,31 @@ pub(super) fn compress(payload: &[u8], level: i32) -> io::Result<Vec<u8>> {
     COMPRESSOR.with_borrow_mut(|kept| {
         let compressor = match kept {
             Some(compressor) => compressor,
+            // The library would panic where the system refuses its memory.
+            None if CCtx::try_create().is_none() => return Err(no_memory()),
             None => kept.insert(Compressor::new(level)?),
         };
         compressor.set_compression_level(level)?;
         compressor.compress(payload)
     })
+}
+
+/// Makes this thread's context for [`decompress`].
+///
+/// # Errors
+/// If there is no memory for it.
+pub(super) fn prepare() -> io::Result<()> {
+    DECOMPRESSOR.with_borrow_mut(|kept| {
+        if kept.is_none() {
+            DCtx::try_create().ok_or_else(no_memory)?;
+            *kept = Some(Decompressor::new()?);
+        }
+        Ok(())
+    })
+}
+
+fn no_memory() -> io::Error {
+    io::Error::new(io::ErrorKind::OutOfMemory, "not enough memory")
 }
 
 /// The payload of a zstd frame, into a buffer. Returns its size.
