@@ -77,7 +77,7 @@ tell full "${#programs[@]}: $refused refused"
 # Refused memory: from too little to begin with up to enough.
 refused=0 aborted=0 tried=0
 for line in "${programs[@]}"; do
-    for megabytes in 8 12 16 20 24 32 48 64 96 128 256; do
+    for megabytes in 12 16 20 24 32 48 64 96 128 256; do
         { (ulimit -v $((megabytes * 1024)) && exec $line >/dev/null 2>/tmp/faults.$$); code=$?; } 2>/dev/null
         # The system could not even load the program.
         [ $code = 127 ] && continue
