@@ -28,3 +28,17 @@ out/bench/scanline.pmq: out/bench/all.pmq
 
 out/bench/hilbert.pmq: out/bench/all.pmq
 	$(BIN)/pm-reorder -q hilbert $< | $(BIN)/pm-sample -q $(BENCH_WINDOWS) -o $@
+
+# Others' traces beside libCacheSim, if there is one: make bench-traces LIBCACHESIM=PYTHON. Some 46 million accesses an order.
+TAKEN += bench-traces
+LIBCACHESIM ?=
+bench-traces: out/bench/scattered.pmt out/bench/ordered.pmt ## pm-cachesim beside libCacheSim (LIBCACHESIM=PYTHON): misses compared, seconds as ratios
+	@test -n '$(LIBCACHESIM)' || { echo 'make bench-traces: LIBCACHESIM=PYTHON has to name a Python that has libcachesim 0.3.5' >&2; exit 2; }
+	PATH="$(abspath $(BIN)):$$PATH" $(LIBCACHESIM) scripts/bench-traces.py --python $(LIBCACHESIM) $^
+
+BENCH_TRACE := --size 64x64 --gathers 32
+out/bench/scattered.pmt: out/bench/100000.pmp
+	$(BIN)/pm-queries -q $(BENCH_TRACE) | $(BIN)/pm-reorder -q random | $(BIN)/pm-gather -q $< -o $@
+
+out/bench/ordered.pmt: out/bench/100000.pmp
+	$(BIN)/pm-queries -q $(BENCH_TRACE) | $(BIN)/pm-reorder -q hilbert | $(BIN)/pm-gather -q $< -o $@
