@@ -4,6 +4,7 @@ mod buffered;
 mod cells;
 mod hashed;
 mod hilbert;
+mod hint;
 mod leaf;
 mod morton;
 mod parameters;
@@ -25,6 +26,7 @@ pub fn orders() -> Registry<dyn Order> {
             &leaf::Leaf,
             &random::Random,
             &hashed::Hashed,
+            &hint::Hint,
             &partition::Partition,
             &cells::Cells,
             &snowplow::Snowplow,

@@ -79,8 +79,9 @@ fn every_order_keeps_to_its_store() {
                 _ => assert_eq!(tables, 0, "{name}"),
             }
             let written = measure(&order, measure::SPILLED_WRITTEN);
-            // The window of the default hash is larger than this store.
-            let spills = !["snowplow", "buffered", "hashed --buckets"].iter().any(|word| name.starts_with(word));
+            // The windows of the default hash and hint are larger than this store.
+            let within = ["snowplow", "buffered", "hashed --buckets", "hint --bits", "hint --key normal"];
+            let spills = !within.iter().any(|word| name.starts_with(word));
             assert_eq!(written > 0.0, spills, "{name}: {written} bytes spilled");
         }
     }
@@ -92,7 +93,8 @@ fn streaming_orders_hold_no_more_of_a_longer_stream() {
     let room = STORE.room() as f64;
     for (name, most) in [
         ("hashed --buckets 7 --capacity 16", 7.0 * 16.0),
-        ("hashed", 37.0 * 128.0),
+        ("hashed --cell 0.03125", 37.0 * 128.0),
+        ("hint", 1024.0),
         ("snowplow", room),
         ("buffered --photons map.pmp --leaf-photons 64", room),
     ] {

@@ -22,10 +22,8 @@ const MOST_CELLS: u32 = 1 << 24;
 const BUCKETS: Parameter = Parameter::new("buckets", Domain::count(1, 1 << 20), "number of buckets").or("37");
 const CAPACITY: Parameter =
     Parameter::new("capacity", Domain::count(1, 1 << 20), "queries that a bucket holds").or("128");
-const SIDE: Parameter = Parameter {
-    help: "side of its cells, in scene units [default: 1/8 of the scene's longest side]",
-    ..CELL
-};
+const SIDE: Parameter =
+    Parameter { help: "side of its cells, in scene units [default: 1/8 of the scene's longest side]", ..CELL };
 
 pm_registry::registered! {
     /// Through hash buckets of cells: when one is full, the current one is emptied, then the fullest; streaming
@@ -42,7 +40,7 @@ impl Order for Hashed {
     }
 
     fn forms(&self) -> &'static [&'static str] {
-        &["", "--buckets 7 --capacity 16", "--buckets 1 --capacity 1", "--cell 0.125"]
+        &["", "--buckets 7 --capacity 16", "--buckets 1 --capacity 1", "--cell 0.03125"]
     }
 
     fn build(&self, setting: Setting<'_>) -> Result<Box<dyn Reorder>, ParameterError> {
