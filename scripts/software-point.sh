@@ -6,13 +6,17 @@ set -euo pipefail
 photons=$1 queries=$2 order=$3 map=$4
 TIMEFORMAT='%U %S'
 ordered=$(mktemp)
-trap 'rm -f "$ordered" "$ordered.exr"' EXIT
-seconds() { awk '{ printf "%.2f\n", $1 + $2 }' | sort -n | sed -n 2p; }
-reorder() { if [ "$order" = scanline ]; then cp "$queries" "$ordered"; else pm-reorder -q "$order" -t 1 "$queries" -o "$ordered"; fi; }
-ordering=$(for _ in 1 2 3; do { time reorder; } 2>&1; done | seconds)
-gathering=$(for _ in 1 2 3; do
-    { time pm-gather -q --no-trace --map "$map" -t 1 "$photons" "$ordered" --image "$ordered.exr"; } 2>&1
-done | seconds)
+trap 'rm -f "$ordered" "$ordered.exr" "$ordered.time"' EXIT
+seconds() { awk '{ printf "%.2f\n", $1 + $2 }' "$ordered".time | sort -n | sed -n 2p; }
+reorder() { if [ "$order" = scanline ]; then cp "$queries" "$ordered"; else pm-reorder -q "$order" "$queries" -o "$ordered"; fi; }
+gather() { pm-gather -q --no-trace --map "$map" -t 1 "$photons" "$ordered" --image "$ordered.exr"; }
+# What a program has to say goes to standard error, what `time` says to the file.
+timed() { for _ in 1 2 3; do { time "$1" 2>&3; } 3>&2 2>> "$ordered".time; done; }
+timed reorder
+ordering=$(seconds)
+rm "$ordered".time
+timed gather
+gathering=$(seconds)
 echo 'ordering_seconds,gathering_seconds'
 [ "$order" = scanline ] && ordering=0
 echo "$ordering,$gathering"
