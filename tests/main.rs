@@ -23,6 +23,7 @@ mod page;
 mod parts;
 mod pictures;
 mod pipes;
+mod plan;
 mod precomputed;
 mod readme;
 mod recipes;

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The programs, and where cargo has just built them.
-pub(crate) const PROGRAMS: [(&str, &str); 11] = [
+pub(crate) const PROGRAMS: [(&str, &str); 12] = [
     ("pm-photons", env!("CARGO_BIN_EXE_pm-photons")),
     ("pm-queries", env!("CARGO_BIN_EXE_pm-queries")),
     ("pm-reorder", env!("CARGO_BIN_EXE_pm-reorder")),
@@ -22,6 +22,7 @@ pub(crate) const PROGRAMS: [(&str, &str); 11] = [
     ("pm-view", env!("CARGO_BIN_EXE_pm-view")),
     ("pm-scene", env!("CARGO_BIN_EXE_pm-scene")),
     ("pm-picture", env!("CARGO_BIN_EXE_pm-picture")),
+    ("pm-plan", env!("CARGO_BIN_EXE_pm-plan")),
     ("pm-sweep", env!("CARGO_BIN_EXE_pm-sweep")),
 ];
 

@@ -25,6 +25,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("caches", &["random", "registry", "sampling", "size", "spool", "formats"]),
     // Never caches: it says what was accessed, not what that costs.
     ("exchange", &["random", "registry", "formats"]),
+    // Never caches: what is fetched is found by running the programs.
+    ("plan", &["gathering", "light", "maps", "orders", "pictures", "random", "sampling", "formats"]),
     ("report", &["registry", "size"]),
     // Never caches or maps: it knows programs by what they print.
     ("sweep", &["registry", "sampling"]),

@@ -28,7 +28,8 @@ fn long_help_ends_with_examples_and_exit_codes() {
         assert!((2..=4).contains(&examples.lines().filter(|line| line.starts_with("  pm-")).count()), "{examples}");
         assert!(examples.contains(program), "{program}: {examples}");
         let numbers: Vec<&str> = codes.lines().filter_map(|line| line.split_whitespace().next()).collect();
-        assert_eq!(numbers, ["0", "1", "2", "3"], "{program}: {codes}");
+        let refuses = if program == "pm-plan" { &["4"][..] } else { &[] };
+        assert_eq!(numbers, [&["0", "1", "2", "3"][..], refuses].concat(), "{program}: {codes}");
     }
 }
 
@@ -46,7 +47,7 @@ fn the_examples_are_asked_rightly() {
         let unwrapped = format!("\n{examples}").replace("\n  pm-", "|pm-").replace('\n', " ");
         for part in unwrapped.split('|').map(str::trim).filter(|part| !part.is_empty()) {
             let has_scene =
-                part.starts_with("pm-photons") || part.starts_with("pm-queries") || part.starts_with("pm-picture");
+                ["pm-photons", "pm-queries", "pm-picture", "pm-plan"].iter().any(|name| part.starts_with(name));
             let mut line = format!("{part}{}", if has_scene { " nosuch.obj" } else { "" });
             if part.starts_with("pm-scene") {
                 // The only one that needs nothing to read: it shall have nowhere to write.

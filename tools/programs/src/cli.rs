@@ -33,7 +33,7 @@ pub use picture::{
 };
 pub use program::Program;
 pub use progress::Progress;
-pub use usage::{UsageError, usage};
+pub use usage::{Refusal, UsageError, refusal, usage};
 
 use clap::{Command, CommandFactory, FromArgMatches};
 use pm_formats::Step;

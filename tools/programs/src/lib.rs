@@ -10,6 +10,7 @@ pub mod gather;
 pub mod photons;
 pub mod picture;
 mod pipe;
+pub mod plan;
 pub mod queries;
 pub mod reorder;
 pub mod scene;

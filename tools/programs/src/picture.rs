@@ -1,9 +1,9 @@
 //! `pm-picture`: makes a picture with the other programs, and prints the pipes by which it does.
 
 mod args;
-mod caustics;
+pub(crate) mod caustics;
 mod recipe;
-mod words;
+pub(crate) mod words;
 
 use crate::cli::{Program, Typed, create_output, picture_format, usage};
 use anyhow::{Context as _, bail};

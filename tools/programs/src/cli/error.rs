@@ -1,7 +1,7 @@
 //! Errors as they are told: one line on standard error and an exit code.
 
 use super::output::{ReaderGone, unfinished_files};
-use super::usage::UsageError;
+use super::usage::{Refusal, UsageError};
 use pm_exchange::{BadInput, BadQuestion};
 use pm_registry::ParameterError;
 use std::io;
@@ -35,6 +35,8 @@ pub(super) fn report(outcome: anyhow::Result<()>) -> (u8, Option<String>) {
         || found(|cause| cause.is::<UsageError>() || cause.is::<ParameterError>() || cause.is::<BadQuestion>())
     {
         2
+    } else if found(|cause| cause.is::<Refusal>()) {
+        4
     } else if is_bad_input(&error)
         || found(|cause| cause.downcast_ref::<pm_formats::Error>().is_some_and(pm_formats::Error::is_damage))
     {

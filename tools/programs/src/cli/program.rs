@@ -54,6 +54,14 @@ impl<A> Program<A> {
         Self { advise, ..self }
     }
 
+    /// The same for a program that may find that nothing will do (exit code 4).
+    #[must_use]
+    pub fn that_may_refuse(self) -> Self {
+        let help = self.command.get_after_long_help().map_or(String::new(), ToString::to_string);
+        let command = self.command.after_long_help(format!("{help}\n  4  refused: nothing that may be chosen will do"));
+        Self { command, ..self }
+    }
+
     /// Runs it as a process: with the arguments of the process, and its outcome told to whoever started it.
     pub fn main(self, run: impl FnOnce(A, &Typed) -> anyhow::Result<()>) -> ExitCode {
         let _ = PROGRAM.set(self.name.to_owned());

@@ -10,7 +10,7 @@ const MOST_PATHS: u64 = 1 << 24;
 
 /// How many photons a map of caustics shall have: as many as are wanted, or as [`MOST_PATHS`] store; none where no light comes
 /// to a surface by mirrors and glass alone, or next to none.
-pub(super) fn photons(scene: &Scene, wanted: u64, seed: u64) -> u64 {
+pub(crate) fn photons(scene: &Scene, wanted: u64, seed: u64) -> u64 {
     let sparkles = |kind| matches!(kind, MaterialKind::Mirror | MaterialKind::Glass);
     if wanted == 0 || !scene.materials.iter().any(|material| sparkles(material.kind)) {
         return 0;

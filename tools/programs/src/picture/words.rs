@@ -5,7 +5,7 @@ use clap::{Arg, ArgMatches, Args, Command};
 
 /// The options of `A` that were typed, each as one word so that no value is taken for an option; what stands in its place,
 /// such as the name of a file, comes last.
-pub(super) fn of<A: Args>(matches: &ArgMatches) -> Vec<String> {
+pub(crate) fn of<A: Args>(matches: &ArgMatches) -> Vec<String> {
     let command = A::augment_args(Command::new("options"));
     let typed = |argument: &&Arg| matches.value_source(argument.get_id().as_str()) == Some(ValueSource::CommandLine);
     let (options, places): (Vec<_>, Vec<_>) =

@@ -1,0 +1,81 @@
+use super::*;
+use crate::survey::{Layer, Survey};
+use crate::{Estimate, Law, Times};
+
+/// A world whose errors and costs are known in closed form.
+fn world(scale: f64) -> Model {
+    let known = |value: f64| Estimate { value, ..Estimate::default() };
+    let soft = Layer {
+        rays: vec![known(0.04); KS.len()],
+        photons: vec![known(1.0); KS.len()],
+        bias: Law { scale: known(scale), power: 1.0 },
+    };
+    let survey = Survey {
+        soft,
+        light: [known(0.01); 3],
+        gathered: RAYS.map(|gathers| known(0.16 / f64::from(gathers))),
+        power: 1.0,
+        times: Times {
+            photon: 1e-6,
+            eye: 1e-6,
+            shadow: 1e-7,
+            gather: 1e-6,
+            searches: vec![(5, 1e-6), (10, 2e-6), (20, 4e-6), (40, 8e-6), (80, 16e-6)],
+            of: 100_000,
+            ..Times::default()
+        },
+        ..Survey::default()
+    };
+    Model::new(survey)
+}
+
+/// The same found by trying everything.
+fn by_force(model: &Model, pixels: f64, error: f64) -> f64 {
+    let mut best = f64::INFINITY;
+    for recipe in skeletons(0) {
+        for samples in grids() {
+            let recipe = Recipe { samples, ..recipe };
+            if model.predict(&recipe).total().value <= error * error {
+                best = best.min(model.times().of(&recipe, pixels));
+            }
+        }
+    }
+    best
+}
+
+#[test]
+fn the_cheapest_is_found() {
+    for (scale, error) in [(0.0, 0.05), (1e4, 0.02), (1e7, 0.03)] {
+        let model = world(scale);
+        let found = choose(&model, 1e4, error, 0.0, 0);
+        assert!((found[0].cost / by_force(&model, 1e4, error) - 1.0).abs() < 1e-12);
+        assert!(found[0].parts.total().value <= error * error);
+        assert!(found.windows(2).all(|two| two[0].cost <= two[1].cost));
+    }
+}
+
+#[test]
+fn blur_asks_for_photons() {
+    let [sharp, blurred] = [0.0, 1e7].map(|scale| choose(&world(scale), 1e4, 0.03, 0.0, 0)[0].recipe);
+    assert!(blurred.share() < sharp.share(), "{sharp:?} {blurred:?}");
+    // x^2 1e7 alone is at most the square of the error.
+    assert!(blurred.share() <= 0.03 / libm::sqrt(1e7));
+}
+
+#[test]
+fn what_nothing_reaches_has_a_nearest_point() {
+    let model = world(1e7);
+    assert!(choose(&model, 1e4, 1e-6, 0.0, 0).is_empty());
+    let near = nearest_in(&model, 1e4, 10.0, 0).unwrap();
+    assert!(near.cost <= 10.0);
+    let error = libm::sqrt(near.parts.total().value);
+    // Nothing that is cheaper has less error.
+    let cheapest = &choose(&model, 1e4, error * 1.000_001, 0.0, 0)[0];
+    assert!(cheapest.cost <= 10.0 && choose(&model, 1e4, error * 0.99, 0.0, 0)[0].cost > 10.0);
+}
+
+#[test]
+fn levels_are_round() {
+    assert_eq!(levels(5_000, 20_000), [5_000, 7_900, 13_000, 20_000]);
+    assert_eq!(levels(300, 300), [300]);
+}

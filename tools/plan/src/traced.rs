@@ -1,0 +1,73 @@
+//! Photons traced once, of which the first n of whole paths are a map of their own.
+
+use pm_formats::Photon;
+use pm_light::scene::Scene;
+use pm_light::transport::PhotonPaths;
+
+/// Photons of the paths of one seed, as many as were asked for so far.
+pub(crate) struct Traced<'a> {
+    paths: PhotonPaths<'a>,
+    photons: Vec<Photon>,
+    /// After how many photons each path ends.
+    ends: Vec<usize>,
+}
+
+/// The photons of a map, and the number of paths that were emitted for them.
+#[derive(Clone, Copy)]
+pub(crate) struct Photons<'a> {
+    pub(crate) photons: &'a [Photon],
+    pub(crate) emitted: u64,
+}
+
+/// Paths that store nothing, one after the other, before a scene is thought to be dark.
+const PATIENCE: usize = 1 << 20;
+
+impl<'a> Traced<'a> {
+    /// None yet, of all photons or of caustics alone.
+    pub(crate) fn new(scene: &'a Scene, seed: u64, caustics: bool) -> Self {
+        let paths = if caustics { PhotonPaths::of_caustics(scene, seed) } else { PhotonPaths::new(scene, seed) };
+        Self { paths, photons: vec![], ends: vec![] }
+    }
+
+    /// The photons of the first paths that store at least `n`, as `pm-photons -n` has them; `None` if too few paths store any,
+    /// or a power is beyond what a photon can hold.
+    pub(crate) fn first(&mut self, n: u64) -> Option<Photons<'_>> {
+        let wanted = usize::try_from(n).ok()?;
+        let mut fruitless = 0;
+        while self.photons.len() < wanted {
+            let before = self.photons.len();
+            let mut found = vec![];
+            self.paths.trace(self.ends.len() as u64, |photon| found.push(photon));
+            for photon in &found {
+                self.photons.push(self.paths.pack(self.photons.len() as u64, photon)?);
+            }
+            fruitless = if self.photons.len() == before { fruitless + 1 } else { 0 };
+            if fruitless > PATIENCE {
+                return None;
+            }
+            self.ends.push(self.photons.len());
+        }
+        let last = self.ends.partition_point(|&end| end < wanted);
+        let end = self.ends.get(last).copied()?;
+        Some(Photons { photons: &self.photons[..end], emitted: last as u64 + 1 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_many_are_what_a_smaller_trace_gives() {
+        let scene = Scene::embedded();
+        let mut many = Traced::new(&scene, 5, false);
+        let all = many.first(3000).map(|found| (found.photons.len(), found.emitted)).unwrap();
+        let few = many.first(500).map(|found| (found.photons.to_vec(), found.emitted)).unwrap();
+        let mut afresh = Traced::new(&scene, 5, false);
+        let same = afresh.first(500).unwrap();
+        assert!(few.0 == same.photons && few.1 == same.emitted);
+        assert!(all.0 >= 3000 && all.1 > few.1 && few.0.len() >= 500);
+        // Flux counts by path: as much for few as for many, give or take chance.
+        assert!((all.0 as f64 / all.1 as f64 / (few.0.len() as f64 / few.1 as f64) - 1.0).abs() < 0.2);
+    }
+}

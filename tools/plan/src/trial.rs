@@ -1,0 +1,132 @@
+//! One recipe measured as a whole, with random numbers that nobody has chosen by.
+
+use crate::answers::{Asking, Map};
+use crate::model::{Model, Parts};
+use crate::pixels::stratified;
+use crate::planning::{PlanError, Task};
+use crate::rays::{Design, cast};
+use crate::recipe::Recipe;
+use crate::replicates::{Values, Weights, mean, sum};
+use crate::survey::KS;
+use crate::times::Times;
+use crate::traced::Traced;
+use pm_gathering::Kernel;
+
+/// What a trial found.
+pub(crate) struct Trial {
+    /// Noise, of rays and photons together.
+    pub(crate) noise: crate::Estimate,
+    /// The square of the bias.
+    pub(crate) bias: crate::Estimate,
+    /// Noise and bias together, their spread from the same pixels.
+    pub(crate) total: crate::Estimate,
+}
+
+/// One of two pictures of the same pixels: as the recipe has it, and with as little blur as can be had.
+#[derive(Default)]
+struct Replicate {
+    pixels: Values,
+    sharp: Values,
+}
+
+impl Replicate {
+    /// The difference between both made larger: the square of the difference is to be multiplied by `of_square` to be that to no
+    /// blur at all.
+    fn extrapolated(self, of_square: f64) -> Self {
+        let factor = libm::sqrt(of_square);
+        let far = |(pixel, sharp): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| pixel[c] + factor * (sharp[c] - pixel[c]));
+        let sharp = self.pixels.iter().zip(&self.sharp).map(far).collect();
+        Self { sharp, ..self }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self { pixels: sum(&self.pixels, &other.pixels), sharp: sum(&self.sharp, &other.sharp) }
+    }
+}
+
+/// Photons of the map that blur is measured against, at most, unless the recipe has more.
+const MOST_REFERENCE: u64 = 1_000_000;
+
+impl Trial {
+    /// Makes some pixels of the picture twice and compares them.
+    pub(crate) fn run(
+        task: &Task<'_>,
+        model: &Model,
+        recipe: &Recipe,
+        pixels: u32,
+        round: u64,
+    ) -> Result<Self, PlanError> {
+        let pixels = stratified(task.camera.size(), pixels, task.seed_of(6, round));
+        let (more, finer) = sharper(recipe);
+        let soft = |r: u64| -> Result<Replicate, PlanError> {
+            let Recipe { samples, gathers, light_samples, .. } = *recipe;
+            let design = Design { samples, gathers, light_samples };
+            let options = design.soft(task.seed_of(7 + r, round), task.caustics > 0);
+            let set = cast(task.scene, task.camera, &pixels, options);
+            let mut traced = Traced::new(task.scene, task.seed_of(9 + r, round), false);
+            let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
+            let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
+                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, k)?;
+                Ok(sum(&set.light, &map.values(asking, &set, &[k]).remove(0)))
+            };
+            Ok(Replicate { pixels: ask(recipe.photons, recipe.k)?, sharp: ask(more, finer)? })
+        };
+        let caustics = |r: u64| -> Result<Replicate, PlanError> {
+            let set = cast(task.scene, task.camera, &pixels, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
+            let mut traced = Traced::new(task.scene, task.seed_of(13 + r, round), true);
+            let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
+            let mut ask = |n: u64| -> Result<Values, PlanError> {
+                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, Times::CAUSTICS_K)?;
+                Ok(map.values(asking, &set, &[Times::CAUSTICS_K]).remove(0))
+            };
+            Ok(Replicate { pixels: ask(recipe.caustics)?, sharp: ask(4 * recipe.caustics)? })
+        };
+        let survey = &model.survey;
+        let share = f64::from(finer) / more as f64;
+        let soft_blur = survey.soft.bias.extrapolation(recipe.share(), share);
+        let mut both = [0, 1].map(|_| Replicate::default());
+        for (one, r) in both.iter_mut().zip(0..) {
+            let found = soft(r)?.extrapolated(soft_blur);
+            *one = match &survey.caustics {
+                Some(layer) if recipe.caustics > 0 => {
+                    let blur = layer.bias.extrapolation(4.0, 1.0);
+                    found.plus(&caustics(r)?.extrapolated(blur))
+                }
+                _ => found,
+            };
+        }
+        Ok(Self::compare(&both))
+    }
+
+    fn compare([a, b]: &[Replicate; 2]) -> Self {
+        let weights = Weights::of(&mean([&a.sharp, &b.sharp]));
+        let half = |x: f64| x / 2.0;
+        let noise = weights.products([&a.pixels, &b.pixels], [&a.pixels, &b.pixels]).into_iter().map(half);
+        let bias = weights.products([&a.pixels, &a.sharp], [&b.pixels, &b.sharp]);
+        let noise: Vec<f64> = noise.collect();
+        let total: Vec<f64> = noise.iter().zip(&bias).map(|(noise, bias)| noise + bias).collect();
+        Self {
+            noise: crate::Estimate::mean(&noise),
+            bias: crate::Estimate::mean(&bias),
+            total: crate::Estimate::mean(&total),
+        }
+    }
+
+    /// What a trial found, beside what was predicted: the noise in the predicted shares.
+    pub(crate) fn parts(&self, predicted: &Parts) -> Parts {
+        let noise = predicted.rays.value + predicted.photons.value;
+        let share = |part: f64| if noise > 0.0 { part / noise } else { 0.5 };
+        Parts {
+            rays: self.noise.scaled(share(predicted.rays.value)),
+            photons: self.noise.scaled(share(predicted.photons.value)),
+            bias: self.bias,
+        }
+    }
+}
+
+/// Photons and neighbours that blur less.
+fn sharper(recipe: &Recipe) -> (u64, u32) {
+    let more = (4 * recipe.photons).min(MOST_REFERENCE).max(recipe.photons);
+    let finer = if recipe.k > KS[0] || more > recipe.photons { KS[0].min(recipe.k) } else { recipe.k - 2 };
+    (more, finer)
+}

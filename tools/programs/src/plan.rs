@@ -1,0 +1,84 @@
+//! `pm-plan`: says how little a picture needs.
+
+mod args;
+mod clock;
+mod pilots;
+mod refuse;
+mod report;
+
+use crate::cli::{Program, Typed, create_output, refusal};
+use crate::picture::{caustics, words};
+use crate::setting;
+use args::Args;
+use clap::{CommandFactory as _, FromArgMatches as _};
+use pilots::Pilots;
+use pm_plan::{Effort, PlanError, Task, Wanted, plan};
+use report::Report;
+use std::io::Write as _;
+use std::path::Path;
+
+/// What was asked: options, and those of the scene and the camera as they go to other programs.
+pub struct Asked {
+    args: Args,
+    scene: Vec<String>,
+    camera: Vec<String>,
+}
+
+/// Photons of caustics that are planned with at most.
+const MOST_CAUSTICS: u64 = 2_000_000;
+
+/// The program.
+#[must_use]
+pub fn program() -> Program<Asked> {
+    let read = |matches: &clap::ArgMatches| {
+        Ok(Asked {
+            args: Args::from_arg_matches(matches)?,
+            scene: words::of::<setting::SceneArgs>(matches),
+            camera: words::of::<setting::CameraArgs>(matches),
+        })
+    };
+    Program::new("pm-plan", Args::command(), read).that_may_refuse()
+}
+
+/// Does what was asked.
+///
+/// # Errors
+/// If it was asked wrongly, the scene cannot be loaded, one of the programs fails, or nothing will do.
+pub fn run(Asked { args, scene, camera }: Asked, _: &Typed) -> anyhow::Result<()> {
+    let loaded = args.scene.load(&args.common)?;
+    let view = args.scene.camera(&loaded, &args.camera, &args.common)?;
+    refuse::paint_left_out(&args)?;
+    let header = setting::header(&loaded);
+    let started = clock::own_seconds();
+    let task = Task {
+        scene: &loaded,
+        camera: view,
+        materials: &header.materials,
+        caustics: caustics::photons(&loaded, MOST_CAUSTICS, args.seed),
+        seed: args.seed,
+        clock: &clock::own_seconds,
+    };
+    let effort = Effort { pixels: args.pixels, photons: args.pilot_photons };
+    let wanted = Wanted { error: args.error, confidence: args.confidence, effort };
+    let size = view.size();
+    let pixels = f64::from(size[0]) * f64::from(size[1]);
+    let planned = plan(&task, &wanted).map_err(|error| match error {
+        PlanError::Dark | PlanError::NothingSeen => refusal(error.to_string()),
+        PlanError::Map(error) => error.into(),
+    })?;
+    let plan = match planned {
+        Ok(plan) if plan.holds => plan,
+        Ok(plan) => return Err(refuse::error_out_of_reach(&args, &plan.model, pixels, task.caustics, Some(&plan))),
+        Err(model) => return Err(refuse::error_out_of_reach(&args, &model, pixels, task.caustics, None)),
+    };
+    let own = clock::own_seconds() - started;
+    let pilots = Pilots { scene: &scene, camera: &camera, size, threads: args.common.threads, seed: args.seed };
+    let time = pilots.measure(&plan.choice)?;
+    if let Some(seconds) = args.seconds.filter(|&seconds| time.total.upper(args.confidence) > seconds) {
+        return Err(refuse::too_slow(&args, &plan, &time, seconds, pixels, task.caustics));
+    }
+    let report = Report { args: &args, plan: &plan, time: &time, own, pipe: pilots.pasted(&plan.choice), size, pixels };
+    let mut output = create_output(Path::new("-"))?;
+    output.write_all(report.text().as_bytes())?;
+    output.commit()
+}

@@ -1,0 +1,69 @@
+//! What `pm-plan` may be asked.
+
+use crate::cli::Common;
+use crate::setting::{CameraArgs, SceneArgs};
+use clap::Parser;
+
+/// Say how little a picture needs: the cheapest pm-picture of an error that is wanted, its error and time, and what it beats.
+///
+/// The error is the root of pm-view's relMSE, against the picture without noise and blur: the root of the mean of (b - a)^2 /
+/// (a^2 + 0.01). Noise and bias are measured on a few pixels of the picture, with two sets of rays and two of photons; time by
+/// small pictures made here and now, so that what is chosen may differ from run to run. What is chosen is tried with fresh random
+/// numbers before it is said. Rare bright pixels that no pilot meets are not planned for.
+#[derive(Parser)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    #[command(flatten)]
+    pub(super) scene: SceneArgs,
+    #[command(flatten)]
+    pub(super) camera: CameraArgs,
+    /// The error that is wanted at most, such as 2%
+    #[arg(long, value_name = "ERROR", value_parser = error)]
+    pub(super) error: f64,
+    /// The chance with which it shall hold, and that of all intervals
+    #[arg(long, value_name = "CHANCE", default_value = "95%", value_parser = confidence)]
+    pub(super) confidence: f64,
+    /// Processor time that the picture may take at most, in seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) seconds: Option<f64>,
+    /// Plan although the scene has Ks and Ns that nobody asked to take for a glossy lobe
+    #[arg(long, conflicts_with = "glossy")]
+    pub(super) anyway: bool,
+    /// Pixels that are measured
+    #[arg(long, value_name = "N", default_value = "400", hide_short_help = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(16..=1 << 20))]
+    pub(super) pixels: u32,
+    /// Photons of the first pilot's largest map
+    #[arg(long, value_name = "N", default_value = "160000", hide_short_help = true)]
+    #[arg(value_parser = clap::value_parser!(u64).range(5000..=1 << 24))]
+    pub(super) pilot_photons: u64,
+    /// Seed of the random numbers of the pilots
+    #[arg(long, default_value = "0")]
+    pub(super) seed: u64,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pm-plan --error 2%
+  pm-plan room.obj --eye 0,1.6,4 --look-at 0,1,0 --error 5% --seconds 30";
+
+/// A share of 1 from percent.
+fn percent(text: &str, least: f64, most: f64) -> Option<f64> {
+    let number: f64 = text.strip_suffix('%')?.parse().ok()?;
+    Some(number).filter(|number| (least..=most).contains(number)).map(|number| number / 100.0)
+}
+
+fn error(text: &str) -> Result<f64, &'static str> {
+    percent(text, 0.01, 100.0).ok_or("percent from 0.01% to 100% are expected, such as 2%")
+}
+
+fn confidence(text: &str) -> Result<f64, &'static str> {
+    percent(text, 50.0, 99.9).ok_or("percent from 50% to 99.9% are expected, such as 95%")
+}
+
+fn seconds(text: &str) -> Result<f64, &'static str> {
+    let parsed = text.parse().ok().filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0);
+    parsed.ok_or("a number of seconds above 0 is expected")
+}

@@ -1,0 +1,90 @@
+//! The time of a picture, by smaller ones made here and now.
+
+use super::clock;
+use crate::pipe::Pipe;
+use anyhow::Context as _;
+use pm_plan::{Choice, Estimate, Recipe};
+
+/// What small pictures are made of.
+pub(super) struct Pilots<'a> {
+    pub(super) scene: &'a [String],
+    pub(super) camera: &'a [String],
+    /// Of the picture that is planned.
+    pub(super) size: [u32; 2],
+    pub(super) threads: u16,
+    pub(super) seed: u64,
+}
+
+/// Seconds of processor time.
+pub(super) struct Time {
+    /// Of the picture that is planned.
+    pub(super) total: Estimate,
+    /// Of the small pictures, all together.
+    pub(super) pilots: f64,
+}
+
+/// Small pictures of the same size, and the share of the planned one that each is, unless that is soon done.
+const PICTURES: u32 = 4;
+const SHARE: f64 = 0.005;
+/// Seconds that a small picture shall take: less is measured badly.
+const LEAST: f64 = 0.2;
+
+impl Pilots<'_> {
+    /// The pipe that makes the picture.
+    pub(super) fn pasted(&self, choice: &Choice) -> Pipe {
+        let threads = (self.threads > 1).then(|| ["-t".to_owned(), self.threads.to_string()]);
+        let recipe = words(&choice.recipe).into_iter().chain(threads.into_iter().flatten());
+        let image = ["--image".to_owned(), "plan.exr".to_owned()];
+        let camera = self.camera.iter().chain(self.scene).cloned();
+        Pipe::new("pm-picture", recipe.chain(image).chain(camera))
+    }
+
+    /// What the picture will take: some small ones of one size, and a tiny one for what does not depend on the size.
+    pub(super) fn measure(&self, choice: &Choice) -> anyhow::Result<Time> {
+        let pixels = f64::from(self.size[0]) * f64::from(self.size[1]);
+        let share = (LEAST / choice.cost).clamp(SHARE, 1.0);
+        let small = self.scaled(share);
+        let tiny = self.scaled(share / 16.0);
+        let of = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
+        let fixed = self.one(&choice.recipe, tiny, 0)?;
+        let mut slopes = vec![];
+        let mut pilots = fixed;
+        for number in 1..=PICTURES {
+            let seconds = self.one(&choice.recipe, small, number.into())?;
+            pilots += seconds;
+            slopes.push(((seconds - fixed) / (of(small) - of(tiny)).max(1.0)).max(0.0));
+        }
+        let slope = Estimate::mean(&slopes);
+        let total = slope.scaled(pixels - of(tiny));
+        Ok(Time { total: Estimate { value: total.value + fixed, ..total }, pilots })
+    }
+
+    /// A picture of the same shape with this share of the pixels.
+    fn scaled(&self, share: f64) -> [u32; 2] {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "smaller than a size of a picture")]
+        let side = |side: u32| (f64::from(side) * share.sqrt()).ceil().max(1.0) as u32;
+        self.size.map(side)
+    }
+
+    /// Seconds of processor time of a picture.
+    fn one(&self, recipe: &Recipe, [width, height]: [u32; 2], number: u64) -> anyhow::Result<f64> {
+        let folder = tempfile::tempdir().context("a folder for a small picture")?;
+        let image = folder.path().join("pilot.exr").display().to_string();
+        let seed = (self.seed ^ 0x0070_696c_6f74) + number;
+        let options = ["-q".to_owned(), "--seed".to_owned(), seed.to_string(), "--image".to_owned(), image];
+        let size = ["--size".to_owned(), format!("{width}x{height}")];
+        let camera = self.camera.iter().filter(|word| !word.starts_with("--size=")).chain(self.scene).cloned();
+        let before = clock::seconds_of_others();
+        Pipe::new("pm-picture", words(recipe).into_iter().chain(options).chain(size).chain(camera)).run()?;
+        Ok(clock::seconds_of_others() - before)
+    }
+}
+
+/// A recipe as `pm-picture` takes it.
+fn words(recipe: &Recipe) -> Vec<String> {
+    let Recipe { samples, gathers, light_samples, photons, k, caustics } = recipe;
+    let line = format!("--samples {samples} --gathers {gathers} --light-samples {light_samples} -n {photons} -k {k}");
+    let of_caustics = format!(" --caustics {caustics}");
+    let line = line + if *caustics > 0 { &of_caustics } else { "" };
+    line.split(' ').map(str::to_owned).collect()
+}

@@ -1,0 +1,89 @@
+//! What is not planned, why, and what could be instead.
+
+use super::args::Args;
+use super::pilots::Time;
+use super::report::{percent, root};
+use crate::cli::{Common, refusal, usage};
+use crate::setting::SceneArgs;
+use pm_light::scene::MaterialKind;
+use pm_plan::{Model, Plan, nearest_in};
+
+/// Refuses a scene whose glossy lobes are left out without a word: its picture would be planned well and be another scene's.
+pub(super) fn paint_left_out(args: &Args) -> anyhow::Result<()> {
+    if args.scene.glossy || args.anyway || args.scene.scene.is_empty() {
+        return Ok(());
+    }
+    let glossy = SceneArgs { glossy: true, verbose: false, ..args.scene.clone() };
+    let loaded = glossy.load(&Common { quiet: true, ..args.common })?;
+    let plain = SceneArgs { verbose: false, ..args.scene.clone() }.load(&Common { quiet: true, ..args.common })?;
+    let lost = loaded
+        .materials
+        .iter()
+        .zip(&plain.materials)
+        .find(|(with, without)| with.kind == MaterialKind::Glossy && without.kind != MaterialKind::Glossy);
+    match lost {
+        None => Ok(()),
+        Some((material, _)) => Err(refusal(format!(
+            "material {:?} has Ks and Ns, which are left out: the plan would be that of a duller scene; say --glossy to take \
+             them, or --anyway if they are not meant",
+            material.name
+        ))),
+    }
+}
+
+/// No recipe has so little error.
+pub(super) fn error_out_of_reach(
+    args: &Args,
+    model: &Model,
+    pixels: f64,
+    caustics: u64,
+    tried: Option<&Plan>,
+) -> anyhow::Error {
+    let wanted = percent(args.error);
+    if let Some(plan) = tried {
+        let upper = percent(root(plan.error.upper(args.confidence)));
+        return refusal(format!(
+            "--error {wanted}: what should do does not when it is tried: {} at {} (bound {upper} at {} confidence); the pilots see \
+             too little of what is rare here; try --error {upper}, or more --pixels",
+            super::report::recipe(&plan.choice.recipe),
+            percent(root(plan.error.value)),
+            percent(args.confidence),
+        ));
+    }
+    // As long as somebody might wait.
+    const HOURS: f64 = 10.0 * 3600.0;
+    match nearest_in(model, pixels, HOURS, caustics) {
+        Some(near) => refusal(format!(
+            "--error {wanted}: no recipe that is planned with has so little error with a confidence of {}; nearest is {} by {} \
+             in {:.0} s of processor time",
+            percent(args.confidence),
+            percent(root(near.parts.total().value)),
+            super::report::recipe(&near.recipe),
+            near.cost
+        )),
+        None => usage("the picture is too large to be planned: ask for a smaller --size"),
+    }
+}
+
+/// The cheapest recipe takes too long.
+pub(super) fn too_slow(
+    args: &Args,
+    plan: &Plan,
+    time: &Time,
+    seconds: f64,
+    pixels: f64,
+    caustics: u64,
+) -> anyhow::Error {
+    let upper = time.total.upper(args.confidence);
+    let needed = format!("--seconds {seconds}: an error of {} takes {upper:.1} s", percent(args.error));
+    // The model's seconds are those of its parts; the pilots say what they come to in pipes.
+    let budget = seconds * plan.choice.cost / time.total.value;
+    match nearest_in(&plan.model, pixels, budget, caustics) {
+        Some(near) => refusal(format!(
+            "{needed}; nearest in that time is an error of about {}, by {}",
+            percent(root(near.parts.total().value)),
+            super::report::recipe(&near.recipe)
+        )),
+        None => refusal(format!("{needed}; nothing that is planned with is done in that time")),
+    }
+}

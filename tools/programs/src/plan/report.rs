@@ -1,0 +1,140 @@
+//! A plan in words.
+
+use super::args::Args;
+use super::pilots::Time;
+use crate::pipe::Pipe;
+use pm_plan::{Choice, Estimate, Plan, Recipe, Rival};
+use std::fmt::Write as _;
+
+/// What is said of a plan.
+pub(super) struct Report<'a> {
+    pub(super) args: &'a Args,
+    pub(super) plan: &'a Plan,
+    pub(super) time: &'a Time,
+    /// Seconds of processor time that planning took, without the small pictures.
+    pub(super) own: f64,
+    pub(super) pipe: Pipe,
+    pub(super) size: [u32; 2],
+    pub(super) pixels: f64,
+}
+
+/// The error, of its square.
+pub(super) fn root(square: f64) -> f64 {
+    square.max(0.0).sqrt()
+}
+
+/// A share in percent, with three digits.
+pub(super) fn percent(share: f64) -> String {
+    let percent = share * 100.0;
+    let digits = if percent >= 99.95 {
+        0
+    } else if percent >= 9.995 {
+        1
+    } else {
+        2
+    };
+    let text = format!("{percent:.digits$}");
+    let short = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    format!("{short}%")
+}
+
+/// A recipe in short.
+pub(super) fn recipe(recipe: &Recipe) -> String {
+    let Recipe { samples, gathers, light_samples, photons, k, caustics } = recipe;
+    let of_caustics = format!(", {caustics} photons of caustics");
+    let of_caustics = if *caustics > 0 { &*of_caustics } else { "" };
+    format!(
+        "{samples} eye rays x {gathers} gather rays, {light_samples} shadow rays, k {k} of {photons} photons{of_caustics}"
+    )
+}
+
+impl Report<'_> {
+    /// The plan, for people.
+    pub(super) fn text(&self) -> String {
+        let Self { args, plan, time, own, pipe, size: [width, height], pixels } = self;
+        let confidence = args.confidence;
+        let mut text = String::new();
+        let mut line = |words: String| writeln!(text, "{words}").expect("a string takes all");
+        line(format!("{pipe}"));
+        line(String::new());
+        let between = |estimate: &Estimate, show: &dyn Fn(f64) -> String| {
+            format!(
+                "{} ({} to {})",
+                show(estimate.value),
+                show(two_sided(estimate, confidence)[0]),
+                show(two_sided(estimate, confidence)[1])
+            )
+        };
+        let share = |square: f64| percent(root(square));
+        let seconds = |seconds: f64| format!("{:.*}", if seconds < 10.0 { 2 } else { 1 }, seconds.max(0.0));
+        line(format!(
+            "error     {}; wanted: {} with {} confidence",
+            between(&plan.error, &share),
+            percent(args.error),
+            percent(confidence)
+        ));
+        let parts = &plan.parts;
+        line(format!(
+            "          of this, noise of rays {}, noise of photons {}, bias {}",
+            share(parts.rays.value),
+            share(parts.photons.value),
+            share(parts.bias.value)
+        ));
+        let total = between(&time.total, &seconds);
+        line(format!("time      {total} s of processor time for {width}x{height} pixels"));
+        for tried in &plan.trials {
+            let verdict = if tried.holds { "holds" } else { "does not hold" };
+            line(format!(
+                "tried     {}: {} where {} was predicted, {verdict}; {} s by the parts",
+                recipe(&tried.choice.recipe),
+                share(tried.error.value),
+                share(tried.choice.parts.total().value),
+                seconds(tried.choice.cost)
+            ));
+        }
+        line(format!("next best {}", self.rival(*pixels)));
+        let all = own + time.pilots;
+        let dear = all / time.total.value;
+        line(format!(
+            "planning  {} s of processor time, {} of the picture's; {} s of it for pilots of time; seconds differ from run \
+             to run, and so may the choice",
+            seconds(all),
+            percent(dear),
+            seconds(time.pilots)
+        ));
+        text
+    }
+
+    /// Who came next, and why it lost.
+    fn rival(&self, _: f64) -> String {
+        let chosen = &self.plan.choice;
+        let by = |other: &Choice| other.cost / chosen.cost;
+        match &self.plan.rival {
+            Some(Rival::Dearer(other)) => {
+                format!("{}: would do, and costs {:.2} times as much", recipe(&other.recipe), by(other))
+            }
+            Some(Rival::TooCoarse(other)) => {
+                let error = percent(root(other.parts.total().value));
+                format!("{}: {:.2} times the cost, but an error of {error}", recipe(&other.recipe), by(other))
+            }
+            None => "none: nothing else would do".to_owned(),
+        }
+    }
+}
+
+/// Both ends of the interval that holds the truth with this chance.
+fn two_sided(estimate: &Estimate, confidence: f64) -> [f64; 2] {
+    let one_sided = f64::midpoint(1.0, confidence);
+    [estimate.lower(one_sided), estimate.upper(one_sided)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percent_have_three_digits_and_no_idle_zeros() {
+        let shown = [0.02, 0.01234, 0.1, 0.12345, 1.0, 2.5].map(percent);
+        assert_eq!(shown, ["2%", "1.23%", "10%", "12.3%", "100%", "250%"]);
+    }
+}
