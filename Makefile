@@ -6,7 +6,7 @@ CARGO ?= cargo
 BIN := target/release
 
 # All programs.
-NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart view scene picture sweep)
+NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart view scene picture plan sweep)
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:

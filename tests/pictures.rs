@@ -89,3 +89,22 @@ fn exposure_doubles_the_light_of_previews_alone() {
         assert_eq!(Picture::decode_exr(&folder.read("x.exr")).unwrap(), base, "{stops} stops");
     }
 }
+
+#[test]
+fn pictures_of_other_seeds_say_what_noise_they_share() {
+    // Catches: the whole difference taken for the noise of one, and noise claimed where more differs than seeds.
+    let folder = Folder::new();
+    let make = |options: &str, name: &str| {
+        let small = "--size 12x12 --samples 4 -n 2000 --caustics 0";
+        folder.run(&format!("pm-picture -q {small} {options} --image {name}")).ok();
+    };
+    make("--seed 1", "a.exr");
+    make("--seed 2", "b.exr");
+    make("--seed 2 -k 5", "c.exr");
+    let said = folder.run("pm-view a.exr b.exr --format csv");
+    let row: Vec<&str> = said.text().lines().nth(1).expect("a row").split(',').collect();
+    let rel_mse: f64 = row[9].parse().expect("a number");
+    assert!(said.stderr.contains(&format!("half of rel_mse, {:.3e}, is the noise", rel_mse / 2.0)), "{}", said.stderr);
+    folder.run("pm-view a.exr c.exr").ok();
+    assert!(folder.run("pm-view a.exr a.exr").stderr.contains("the same to the last bit"));
+}

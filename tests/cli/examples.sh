@@ -18,6 +18,7 @@ exec "$PROGRAMS/pm-queries" "$@" --gathers 4
 END
 printf '%s\n' '#!/bin/sh' 'exec "$PROGRAMS/pm-sample" $(echo " $* " | sed "s/ 25000 / 500 /; s/ 250 / 50 /; s/ --batches 16 / --batches 2 /")' > small/pm-sample
 printf '%s\n' '#!/bin/sh' 'exec "$PROGRAMS/pm-picture" "$@" --size 8x8 -n 2000 --caustics 1000' > small/pm-picture
+printf '%s\n' '#!/bin/sh' 'exec "$PROGRAMS/pm-plan" $(echo " $* " | sed "s/ --error [0-9]*% / --error 80% /") --size 8x8 --pixels 16 --pilot-photons 5000' > small/pm-plan
 chmod +x small/*
 
 cp scenes/cornell-diffuse.obj room.obj

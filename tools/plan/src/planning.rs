@@ -98,7 +98,7 @@ pub struct Tried {
 }
 
 /// Trials at most.
-const TRIALS: u32 = 4;
+const TRIALS: u32 = 6;
 /// Share of a large picture's pixels that a trial makes, each twice.
 const SHARE_TRIED: f64 = 0.008;
 /// By what share the bound may stay below what is wanted: less is not worth another trial.
@@ -133,12 +133,15 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
     }
     let mut tried: Option<Plan> = None;
     let mut trials = vec![];
+    let (surveyed, mut lessons) = (model.clone(), Lessons::default());
     for trial in 1..=TRIALS {
         let Some(&choice) = best.first() else { break };
         let found = Trial::run(task, &model, &choice.recipe, pixels_of_trials(task, wanted.effort), u64::from(trial))?;
         let predicted = model.predict(&choice.recipe);
-        correct(&mut model, &predicted, &found);
-        let bound = found.total.upper(wanted.confidence);
+        lessons.add(&surveyed.predict(&choice.recipe), &found);
+        lessons.teach(&mut model);
+        // What all trials together say counts too: the least of several is too good to be true.
+        let bound = found.total.upper(wanted.confidence).max(model.predict(&choice.recipe).total().value);
         let goal = wanted.error * wanted.error;
         let plan = Plan {
             choice,
@@ -151,9 +154,9 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
             seconds: (task.clock)() - start,
         };
         trials.push(Tried { choice, error: plan.error, holds: plan.holds });
-        let better = tried.as_ref().is_none_or(|old| {
-            (plan.holds && (!old.holds || plan.choice.cost < old.choice.cost)) || (!plan.holds && !old.holds)
-        });
+        let better = tried
+            .as_ref()
+            .is_none_or(|old| if plan.holds { !old.holds || plan.choice.cost < old.choice.cost } else { !old.holds });
         let done = plan.holds && bound >= goal * NEAR * NEAR;
         if better {
             tried = Some(plan);
@@ -185,16 +188,35 @@ fn chosen_again(task: &Task<'_>, wanted: &Wanted, model: &Model, relative: f64) 
     choose(model, task.pixels(), error, 0.0, task.caustics)
 }
 
-/// Corrects the model by what a trial found where something else was predicted.
-fn correct(model: &mut Model, predicted: &Parts, found: &Trial) {
-    let noise = predicted.rays.value + predicted.photons.value;
-    if noise > 0.0 && found.noise.value > 0.0 {
-        model.noise *= (found.noise.value / noise).clamp(0.2, 5.0);
+/// What trials found of what a survey predicted, as shares of it.
+#[derive(Default)]
+struct Lessons {
+    noise: Vec<f64>,
+    bias: Vec<f64>,
+}
+
+impl Lessons {
+    fn add(&mut self, predicted: &Parts, found: &Trial) {
+        let noise = predicted.rays.value + predicted.photons.value;
+        if noise > 0.0 && found.noise.value > 0.0 {
+            self.noise.push((found.noise.value / noise).clamp(0.2, 10.0));
+        }
+        // Bias is corrected as far as the trial knows it: what is lost in noise corrects nothing.
+        let (bias, doubt) = (predicted.bias.value, libm::sqrt(found.bias.spread.variance));
+        if bias > 0.0 && doubt < bias {
+            self.bias.push((found.bias.value / bias).clamp(0.2, 10.0));
+        }
     }
-    // Bias is corrected as far as the trial knows it: what is lost in noise corrects nothing.
-    let (bias, doubt) = (predicted.bias.value, libm::sqrt(found.bias.spread.variance));
-    if bias > 0.0 && doubt < bias {
-        model.bias *= (found.bias.value / bias).clamp(0.2, 5.0);
+
+    /// Corrects a model by all of them alike.
+    fn teach(&self, model: &mut Model) {
+        let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len() as f64;
+        if !self.noise.is_empty() {
+            model.noise = mean(&self.noise);
+        }
+        if !self.bias.is_empty() {
+            model.bias = mean(&self.bias);
+        }
     }
 }
 

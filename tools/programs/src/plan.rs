@@ -13,6 +13,7 @@ use args::Args;
 use clap::{CommandFactory as _, FromArgMatches as _};
 use pilots::Pilots;
 use pm_plan::{Effort, PlanError, Task, Wanted, plan};
+use pm_report::Format;
 use report::Report;
 use std::io::Write as _;
 use std::path::Path;
@@ -77,8 +78,11 @@ pub fn run(Asked { args, scene, camera }: Asked, _: &Typed) -> anyhow::Result<()
     if let Some(seconds) = args.seconds.filter(|&seconds| time.total.upper(args.confidence) > seconds) {
         return Err(refuse::too_slow(&args, &plan, &time, seconds, pixels, task.caustics));
     }
-    let report = Report { args: &args, plan: &plan, time: &time, own, pipe: pilots.pasted(&plan.choice), size, pixels };
+    let report = Report { args: &args, plan: &plan, time: &time, own, pipe: pilots.pasted(&plan.choice), size };
     let mut output = create_output(Path::new("-"))?;
-    output.write_all(report.text().as_bytes())?;
+    match args.format {
+        Format::Table => output.write_all(report.text().as_bytes())?,
+        format => report.table().write(format, &mut output)?,
+    }
     output.commit()
 }

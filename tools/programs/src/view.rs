@@ -9,6 +9,7 @@ mod import;
 mod look;
 mod merge;
 mod pictures;
+mod seeds;
 mod tables;
 mod whole;
 

@@ -1,3 +1,5 @@
+//! Choices in a world whose errors and costs are known in closed form.
+
 use super::*;
 use crate::survey::{Layer, Survey};
 use crate::{Estimate, Law, Times};

@@ -1,8 +1,9 @@
 //! What `pm-plan` may be asked.
 
-use crate::cli::Common;
+use crate::cli::{Common, choice};
 use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
+use pm_report::Format;
 
 /// Say how little a picture needs: the cheapest pm-picture of an error that is wanted, its error and time, and what it beats.
 ///
@@ -26,6 +27,9 @@ pub(super) struct Args {
     /// Processor time that the picture may take at most, in seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) seconds: Option<f64>,
+    /// How the plan is written: in words, or as a row of numbers
+    #[arg(long, default_value = "table", value_parser = choice::<Format>())]
+    pub(super) format: Format,
     /// Plan although the scene has Ks and Ns that nobody asked to take for a glossy lobe
     #[arg(long, conflicts_with = "glossy")]
     pub(super) anyway: bool,

@@ -4,6 +4,7 @@ use super::args::Args;
 use super::pilots::Time;
 use crate::pipe::Pipe;
 use pm_plan::{Choice, Estimate, Plan, Recipe, Rival};
+use pm_report::{Column, Table, Value};
 use std::fmt::Write as _;
 
 /// What is said of a plan.
@@ -15,7 +16,6 @@ pub(super) struct Report<'a> {
     pub(super) own: f64,
     pub(super) pipe: Pipe,
     pub(super) size: [u32; 2],
-    pub(super) pixels: f64,
 }
 
 /// The error, of its square.
@@ -51,7 +51,7 @@ pub(super) fn recipe(recipe: &Recipe) -> String {
 impl Report<'_> {
     /// The plan, for people.
     pub(super) fn text(&self) -> String {
-        let Self { args, plan, time, own, pipe, size: [width, height], pixels } = self;
+        let Self { args, plan, time, own, pipe, size: [width, height] } = self;
         let confidence = args.confidence;
         let mut text = String::new();
         let mut line = |words: String| writeln!(text, "{words}").expect("a string takes all");
@@ -92,7 +92,7 @@ impl Report<'_> {
                 seconds(tried.choice.cost)
             ));
         }
-        line(format!("next best {}", self.rival(*pixels)));
+        line(format!("next best {}", self.rival()));
         let all = own + time.pilots;
         let dear = all / time.total.value;
         line(format!(
@@ -105,8 +105,46 @@ impl Report<'_> {
         text
     }
 
+    /// The plan as a row, for programs. Errors and chances are shares of 1.
+    pub(super) fn table(&self) -> Table {
+        let Self { args, plan, time, own, pipe, size: [width, height] } = self;
+        let Recipe { samples, gathers, light_samples, photons, k, caustics } = plan.choice.recipe;
+        let [low, high] = two_sided(&plan.error, args.confidence).map(root);
+        let [fast, slow] = two_sided(&time.total, args.confidence).map(|seconds| seconds.max(0.0));
+        let real = |x: f64| Value::Float(x, 4);
+        let whole = |x: u32| Value::Int(x.into());
+        let cells = [
+            (Column::text("pipe"), Value::Text(pipe.to_string())),
+            (Column::number("wanted"), real(args.error)),
+            (Column::number("confidence"), real(args.confidence)),
+            (Column::number("error"), real(root(plan.error.value))),
+            (Column::number("error_low"), real(low)),
+            (Column::number("error_high"), real(high)),
+            (Column::number("noise_of_rays"), real(root(plan.parts.rays.value))),
+            (Column::number("noise_of_photons"), real(root(plan.parts.photons.value))),
+            (Column::number("bias"), real(root(plan.parts.bias.value))),
+            (Column::number("seconds"), real(time.total.value)),
+            (Column::number("seconds_low"), real(fast)),
+            (Column::number("seconds_high"), real(slow)),
+            (Column::number("planning_seconds"), real(own + time.pilots)),
+            (Column::number("width"), whole(*width)),
+            (Column::number("height"), whole(*height)),
+            (Column::number("samples"), whole(samples)),
+            (Column::number("gathers"), whole(gathers)),
+            (Column::number("light_samples"), whole(light_samples)),
+            (Column::number("photons"), Value::Int(photons)),
+            (Column::number("k"), whole(k)),
+            (Column::number("caustics"), Value::Int(caustics)),
+            (Column::text("next_best"), Value::Text(self.rival())),
+        ];
+        let (columns, row) = cells.into_iter().unzip();
+        let mut table = Table::new(columns);
+        table.push(row);
+        table
+    }
+
     /// Who came next, and why it lost.
-    fn rival(&self, _: f64) -> String {
+    fn rival(&self) -> String {
         let chosen = &self.plan.choice;
         let by = |other: &Choice| other.cost / chosen.cost;
         match &self.plan.rival {

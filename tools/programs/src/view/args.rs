@@ -14,7 +14,8 @@ use std::path::PathBuf;
 ///
 /// Without options: header, history, and, read to the end, counts, digest and what each stage measured. Two pictures,
 /// a.exr b.exr: how far b is from a; ldr_flip and hdr_flip are the means of FLIP, 0 for the same to 1 for black and white,
-/// of the previews at --exposure and of the radiance at all exposures that show it. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
+/// of the previews at --exposure and of the radiance at all exposures that show it. If they differ in their seeds alone, half of
+/// rel_mse is the noise of each, as is said then. With --import: the rows of a file as a stream. Columns of photons: x,y,z;
 /// power_r,power_g,power_b, flux in watts times the emitted paths (1); from_x,from_y,from_z, towards where it came from
 /// (the normal); n_x,n_y,n_z (the direction it came from, else 0,1,0). Of queries: x,y,z; n_x,n_y,n_z (0,1,0);
 /// view_x,view_y,view_z, towards the viewer (the normal); pixel (number of the row, or one for all without --size);

@@ -1,6 +1,6 @@
 //! Pictures: one described, two compared, rectangles of any measured, many on a sheet.
 
-use super::{Args, tables};
+use super::{Args, seeds, tables};
 use crate::cli::{
     create_output, describe_picture, named, picture_format, read_framed, read_preview, usage, write_picture,
 };
@@ -60,6 +60,14 @@ pub(super) fn compare(a: &Path, b: &Path, args: &Args, output: &mut impl Write) 
         args.voice.remark(format!("{difference}; pixels are compared by their order in the files"));
     } else if comparison.differing == 0 {
         args.voice.remark("the pictures are the same to the last bit");
+    } else if seeds::differ_alone(&describe_picture(a)?, &describe_picture(b)?) {
+        // Of independent pictures of the same mean the difference has the variance of both.
+        let noise = comparison.rel_mse / 2.0;
+        args.voice.remark(format!(
+            "as far as they tell, these differ in their seeds alone: half of rel_mse, {noise:.3e}, is the noise that each of them \
+             has, {:.3} % by root mean square; what bias they share is not seen",
+            noise.sqrt() * 100.0
+        ));
     }
     let flips = tables::Flips {
         ldr: ldr_flip(&x.exposed(args.exposure), &y.exposed(args.exposure), args.pixels_per_degree),
