@@ -19,6 +19,7 @@
 //! | `recipe`, `times` | what is chosen among, and what it costs |
 //! | `pixels`, `rays`, `traced`, `answers` | pilots: which pixels, rays through them, photons, radiance |
 //! | `survey`, `trial` | all parts measured for many recipes; one recipe measured as a whole |
+//! | `task` | what is to be planned |
 //! | `model`, `choice`, `planning` | the error of any recipe; the cheapest that will do; all of it together |
 
 mod answers;
@@ -32,6 +33,7 @@ mod rays;
 mod recipe;
 mod replicates;
 mod survey;
+mod task;
 mod times;
 mod traced;
 mod trial;
@@ -40,7 +42,8 @@ pub use choice::{Choice, Rival, choose, nearest_in};
 pub use estimate::Estimate;
 pub use law::{Law, Point};
 pub use model::{Model, Parts};
-pub use planning::{Plan, PlanError, Task, Tried, Wanted, plan};
+pub use planning::{Plan, Tried, Wanted, plan};
 pub use recipe::Recipe;
 pub use survey::{Effort, Survey};
+pub use task::{PlanError, Task};
 pub use times::Times;

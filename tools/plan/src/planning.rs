@@ -4,41 +4,9 @@ use crate::choice::{Choice, Rival, choose};
 use crate::estimate::Estimate;
 use crate::model::{Model, Parts};
 use crate::survey::{Effort, Survey};
+use crate::task::{PlanError, Task};
 use crate::trial::Trial;
-use pm_formats::Material;
-use pm_light::scene::{Camera, Scene};
-use pm_maps::BuildError;
-use pm_random::Random;
 use pm_sampling::student_quantile;
-
-/// What is to be planned.
-pub struct Task<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// From where it is seen.
-    pub camera: Camera,
-    /// What its surfaces are made of, as in a stream's header.
-    pub materials: &'a [Material],
-    /// Photons of caustics there may be at most; 0 where there are no caustics.
-    pub caustics: u64,
-    /// Seed of all random numbers.
-    pub seed: u64,
-    /// Seconds of processor time so far.
-    pub clock: &'a dyn Fn() -> f64,
-}
-
-impl Task<'_> {
-    /// A seed for one of several uses.
-    pub(crate) fn seed_of(&self, purpose: u64, number: u64) -> u64 {
-        Random::new(&[self.seed, 0x706c_616e, purpose, number]).next_u64()
-    }
-
-    /// Number of pixels.
-    pub(crate) fn pixels(&self) -> f64 {
-        let [width, height] = self.camera.size();
-        f64::from(width) * f64::from(height)
-    }
-}
 
 /// What is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -49,20 +17,6 @@ pub struct Wanted {
     pub confidence: f64,
     /// How much is measured.
     pub effort: Effort,
-}
-
-/// Why there is no plan.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// Nothing is seen.
-    #[error("the camera sees no surface that is lit or could be: there is no picture to plan")]
-    NothingSeen,
-    /// There is no light.
-    #[error("what the camera sees is black: no light comes there, or too little to be found by chance")]
-    Dark,
-    /// A map cannot be built.
-    #[error(transparent)]
-    Map(#[from] BuildError),
 }
 
 /// A plan.

@@ -3,11 +3,11 @@
 use crate::answers::{Asking, Map};
 use crate::model::{Model, Parts};
 use crate::pixels::stratified;
-use crate::planning::{PlanError, Task};
 use crate::rays::{Design, cast};
 use crate::recipe::Recipe;
 use crate::replicates::{Values, Weights, mean, sum};
 use crate::survey::KS;
+use crate::task::{PlanError, Task};
 use crate::times::Times;
 use crate::traced::Traced;
 use pm_gathering::Kernel;
