@@ -5,7 +5,7 @@
 //! window of all, the order along the curve.
 
 use super::hilbert;
-use crate::{Costs, Order, Outlet, Reorder, Setting, Store};
+use crate::{Costs, Keys, Order, Outlet, Reorder, Setting, Store};
 use pm_formats::{Bounds, Query};
 use pm_registry::{Domain, Parameter, ParameterError, Values, words_of};
 
@@ -67,8 +67,8 @@ impl Order for Hint {
 const WHOLE: u32 = 30;
 
 /// Computes the keys of queries, of so many bits.
-fn keys(of: Key, bits: u32, bounds: Bounds) -> Box<dyn Fn(&[Query]) -> Vec<u32>> {
-    let whole: Box<dyn Fn(&[Query]) -> Vec<u32>> = match of {
+fn keys(of: Key, bits: u32, bounds: Bounds) -> Keys {
+    let whole: Keys = match of {
         Key::Position => Box::new(hilbert::keys(bounds)),
         Key::Direction => Box::new(|queries| queries.iter().map(|query| cell_of_sphere(query.view)).collect()),
         Key::Normal => Box::new(|queries| queries.iter().map(|query| cell_of_sphere(query.normal)).collect()),
