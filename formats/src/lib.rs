@@ -47,7 +47,7 @@ pub use container::{
 pub use digest::{Digest, Tally};
 pub use error::{Error, Result};
 pub use history::{Step, as_commands};
-pub use parts::{Parts, PartsError, each_part_once, whole_header};
+pub use parts::{Parts, PartsError, each_part_once, part_of, whole_header};
 pub use record::{
     BLOCK_RECORDS, Photon, Query, Record, UnroundedPhoton, decode_checked, decode_records, encode_records,
     pack_direction, pack_rgbe, unpack_direction, unpack_rgbe,

@@ -13,7 +13,7 @@ mod source;
 mod tests;
 
 pub use error::PartsError;
-pub use header::{each_part_once, whole_header};
+pub use header::{each_part_once, part_of, whole_header};
 
 use crate::container::{Block, BlockReader, End, Header, Section, StreamKind};
 use crate::digest::Tally;

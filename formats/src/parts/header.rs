@@ -6,6 +6,12 @@ use crate::container::{Header, StreamKind};
 use crate::history::Step;
 use crate::vocabulary::{Part, meaning};
 
+/// Which part of a stream a header is of, if it is one of a part.
+#[must_use]
+pub fn part_of(header: &Header) -> Option<Part> {
+    header.meaning(meaning::PART)?.parse().ok()
+}
+
 /// The header of the stream that these are the parts of, each given with its name, in whatever order.
 ///
 /// # Errors

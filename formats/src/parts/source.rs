@@ -1,6 +1,7 @@
 //! One part, a block ahead.
 
 use super::PartsError;
+use super::header::part_of;
 use crate::beside::tally_beside;
 use crate::container::{Block, BlockReader, End, Section, StreamKind};
 use crate::digest::Tally;
@@ -8,7 +9,7 @@ use crate::error::Error;
 use crate::record::{Query, decode_checked};
 use crate::region::check_regions;
 use crate::trace::{TraceSink, decode_searches};
-use crate::vocabulary::{Part, meaning};
+use crate::vocabulary::Part;
 use std::io::Read;
 
 /// One part of a stream.
@@ -25,8 +26,8 @@ pub(super) struct Source<R> {
 
 impl<R: Read> Source<R> {
     pub(super) fn new(name: String, blocks: BlockReader<R>) -> Result<Self, PartsError> {
-        let part = blocks.header().meaning(meaning::PART).and_then(|part| part.parse().ok());
-        let part = part.ok_or_else(|| PartsError::Unfit(format!("{name}: not a part of a stream")))?;
+        let part =
+            part_of(blocks.header()).ok_or_else(|| PartsError::Unfit(format!("{name}: not a part of a stream")))?;
         let mut source = Self { name, part, blocks, ahead: None, last: None, tally: Tally::default() };
         if source.blocks.kind() == StreamKind::Trace
             && let Err(what) = check_regions(&source.blocks.header().regions)

@@ -43,7 +43,7 @@ pub use estimate::Estimate;
 pub use law::{Law, Point};
 pub use model::{Model, Parts};
 pub use planning::{Plan, Tried, Wanted, plan};
-pub use recipe::Recipe;
+pub use recipe::{CAUSTICS_K, MOST_SEEN, Recipe};
 pub use survey::{Effort, Survey};
 pub use task::{PlanError, Task};
 pub use times::Times;

@@ -17,10 +17,10 @@ pub struct Recipe {
     pub caustics: u64,
 }
 
-/// Eye rays of a pixel that ask for caustics at most, as `pm-picture` has it.
-pub(crate) const MOST_SEEN: u32 = 16;
-/// Photons of caustics that a point seen asks for, as `pm-picture` has it.
-pub(crate) const CAUSTICS_K: u32 = 50;
+/// Eye rays of a pixel that ask for caustics at most: their map is what blurs them then.
+pub const MOST_SEEN: u32 = 16;
+/// Nearest photons of caustics that a point seen asks for.
+pub const CAUSTICS_K: u32 = 50;
 /// Least and most eye rays for each pixel. A single one goes through the pixel's middle, and does not smooth edges.
 const SAMPLES: [u32; 2] = [4, 1 << 14];
 

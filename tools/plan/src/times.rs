@@ -26,8 +26,6 @@ pub struct Times {
     pub aiming: f64,
     /// A point seen that asks for caustics.
     pub seen: f64,
-    /// A query written to a stream and read from there.
-    pub query: f64,
 }
 
 impl Times {
@@ -36,12 +34,12 @@ impl Times {
     pub fn of(&self, recipe: &Recipe, pixels: f64) -> f64 {
         let samples = f64::from(recipe.samples);
         let seen = f64::from(recipe.samples.min(MOST_SEEN));
-        let gather = self.gather + self.search(recipe.k, recipe.photons) + self.query;
+        let gather = self.gather + self.search(recipe.k, recipe.photons);
         let sample = self.eye + f64::from(recipe.light_samples) * self.shadow + f64::from(recipe.gathers) * gather;
         let caustics = if recipe.caustics == 0 {
             0.0
         } else {
-            self.aiming + recipe.caustics as f64 * self.caustic + pixels * seen * (self.seen + self.query)
+            self.aiming + recipe.caustics as f64 * self.caustic + pixels * seen * self.seen
         };
         recipe.photons as f64 * self.photon + pixels * samples * sample + caustics
     }
@@ -97,7 +95,6 @@ mod tests {
             caustic: 1e-5,
             aiming: 0.5,
             seen: 4e-6,
-            query: 0.0,
         };
         let recipe = Recipe { samples: 25, gathers: 4, light_samples: 2, photons: 1000, k: 12, caustics: 0 };
         let sample = 1e-5 + 2e-6 + 4.0 * 5e-6;

@@ -2,6 +2,7 @@
 //!
 //! `README.md` beside this crate's folder is the map of the code.
 
+mod asked;
 pub mod cachesim;
 pub mod chart;
 pub mod cli;

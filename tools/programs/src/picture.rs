@@ -3,40 +3,27 @@
 mod args;
 pub(crate) mod caustics;
 mod recipe;
-pub(crate) mod words;
 
+use crate::asked::Asked;
 use crate::cli::{Program, Typed, create_output, picture_format, usage};
 use anyhow::{Context as _, bail};
-use args::Args;
-use clap::{CommandFactory as _, FromArgMatches as _};
+pub use args::Args;
+use clap::CommandFactory as _;
 use recipe::Recipe;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// What was asked: options, and those of the scene and the camera as they go to other programs.
-pub struct Asked {
-    args: Args,
-    scene: Vec<String>,
-    camera: Vec<String>,
-}
-
 /// The program.
 #[must_use]
-pub fn program() -> Program<Asked> {
-    Program::new("pm-picture", Args::command(), |matches| {
-        Ok(Asked {
-            args: Args::from_arg_matches(matches)?,
-            scene: words::of::<crate::setting::SceneArgs>(matches),
-            camera: words::of::<crate::setting::CameraArgs>(matches),
-        })
-    })
+pub fn program() -> Program<Asked<Args>> {
+    Program::new("pm-picture", Args::command(), Asked::read)
 }
 
 /// Does what was asked.
 ///
 /// # Errors
 /// If it was asked wrongly, the scene cannot be loaded, or one of the programs fails.
-pub fn run(Asked { args, scene, camera }: Asked, _: &Typed) -> anyhow::Result<()> {
+pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Result<()> {
     check(&args)?;
     // What there is to say of the scene is said by the first program that loads it.
     let loaded = args.scene.load(&args.hushed())?;

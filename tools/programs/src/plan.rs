@@ -6,11 +6,12 @@ mod pilots;
 mod refuse;
 mod report;
 
+use crate::asked::Asked;
 use crate::cli::{Program, Typed, create_output, refusal};
-use crate::picture::{caustics, words};
+use crate::picture::caustics;
 use crate::setting;
-use args::Args;
-use clap::{CommandFactory as _, FromArgMatches as _};
+pub use args::Args;
+use clap::CommandFactory as _;
 use pilots::Pilots;
 use pm_plan::{Effort, PlanError, Task, Wanted, plan};
 use pm_report::Format;
@@ -18,34 +19,20 @@ use report::Report;
 use std::io::Write as _;
 use std::path::Path;
 
-/// What was asked: options, and those of the scene and the camera as they go to other programs.
-pub struct Asked {
-    args: Args,
-    scene: Vec<String>,
-    camera: Vec<String>,
-}
-
 /// Photons of caustics that are planned with at most.
 const MOST_CAUSTICS: u64 = 2_000_000;
 
 /// The program.
 #[must_use]
-pub fn program() -> Program<Asked> {
-    let read = |matches: &clap::ArgMatches| {
-        Ok(Asked {
-            args: Args::from_arg_matches(matches)?,
-            scene: words::of::<setting::SceneArgs>(matches),
-            camera: words::of::<setting::CameraArgs>(matches),
-        })
-    };
-    Program::new("pm-plan", Args::command(), read).that_may_refuse()
+pub fn program() -> Program<Asked<Args>> {
+    Program::new("pm-plan", Args::command(), Asked::read).that_may_refuse()
 }
 
 /// Does what was asked.
 ///
 /// # Errors
 /// If it was asked wrongly, the scene cannot be loaded, one of the programs fails, or nothing will do.
-pub fn run(Asked { args, scene, camera }: Asked, _: &Typed) -> anyhow::Result<()> {
+pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Result<()> {
     let loaded = args.scene.load(&args.common)?;
     let view = args.scene.camera(&loaded, &args.camera, &args.common)?;
     refuse::paint_left_out(&args)?;

@@ -279,3 +279,21 @@ mod x86 {
         }
     }
 }
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_of_sse_is_that_of_plain_comparisons() {
+        let numbers = [0.0, -0.0, 1.0, f32::MIN_POSITIVE, f32::MAX, f32::INFINITY, f32::NAN];
+        for bound in numbers {
+            for first in 0..numbers.len() {
+                let distances: [f32; WIDTH] =
+                    std::array::from_fn(|lane| numbers[(first + lane * lane) % numbers.len()]);
+                let (sse, plain) = (x86::Sse::within(&distances, bound), Plain::within(&distances, bound));
+                assert_eq!(sse, plain, "{distances:?} within {bound}");
+            }
+        }
+    }
+}

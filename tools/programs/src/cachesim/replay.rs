@@ -2,8 +2,8 @@
 
 use crate::cli::refuse_parts;
 use pm_formats::trace::{TraceReader, TraceSink};
-use pm_formats::vocabulary::{Part, meaning};
-use pm_formats::{BlockMeta, BlockReader, End, Error, Header, Parts, StreamKind};
+use pm_formats::vocabulary::meaning;
+use pm_formats::{BlockMeta, BlockReader, End, Error, Header, Parts, StreamKind, part_of};
 use std::io::Read;
 
 /// A trace, however it is stored.
@@ -68,8 +68,7 @@ impl<R: Read> Waiting<R> {
     /// One more part. If all are there that the first one speaks of, their names and their trace.
     pub(super) fn add(&mut self, name: String, blocks: BlockReader<R>) -> anyhow::Result<Option<(String, Replay<R>)>> {
         self.0.push((name, blocks));
-        let part: Option<Part> = self.0[0].1.header().meaning(meaning::PART).and_then(|part| part.parse().ok());
-        match part {
+        match part_of(self.0[0].1.header()) {
             Some(part) if (self.0.len() as u64) < part.of() => Ok(None),
             _ => self.rest(),
         }

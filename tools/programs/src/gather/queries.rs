@@ -5,7 +5,7 @@ use crate::cli::{Input, check_part_of_picture, named, open_input, refuse_part, u
 use anyhow::Context as _;
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::vocabulary::meaning;
-use pm_formats::{Block, BlockReader, Section, StreamKind, Tally, decode_irradiance, decode_weights};
+use pm_formats::{Block, BlockReader, Section, StreamKind, Tally, decode_irradiance, decode_weights, part_of};
 
 /// Opens the queries. A part of them gives no picture.
 pub(super) fn open(args: &Args) -> anyhow::Result<BlockReader<Input>> {
@@ -15,7 +15,7 @@ pub(super) fn open(args: &Args) -> anyhow::Result<BlockReader<Input>> {
     if args.rest.report.is_some() {
         refuse_part(&named(path), header, "--report describes the lookups of a whole")?;
     }
-    let part = header.meaning(meaning::PART).and_then(|part| part.parse().ok());
+    let part = part_of(header);
     args.rest.image.iter().try_for_each(|image| check_part_of_picture(image, part).map(|_| ()))?;
     if let Some(sample) = queries.header().meaning(meaning::SAMPLE).filter(|_| !args.rest.image.is_empty()) {
         let name = named(path);

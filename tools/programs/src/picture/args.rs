@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// and few gather rays and photons for each of them.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-pub(super) struct Args {
+pub struct Args {
     #[command(flatten)]
     pub(super) scene: SceneArgs,
     #[command(flatten)]

@@ -2,13 +2,8 @@
 
 use super::args::{Args, Words};
 use crate::pipe::Pipe;
+use pm_plan::{CAUSTICS_K, MOST_SEEN};
 use std::path::{Path, PathBuf};
-
-/// Photons of caustics that each point seen asks for, unless others are asked for.
-const CAUSTICS_K: u32 = 50;
-
-/// Eye rays of a pixel that ask for caustics at most: their map is what blurs them then.
-const MOST_SEEN: u32 = 16;
 
 /// What is cooked, and from what.
 pub(super) struct Recipe<'a> {

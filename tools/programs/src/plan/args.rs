@@ -13,7 +13,7 @@ use pm_report::Format;
 /// numbers before it is said. Rare bright pixels that no pilot meets are not planned for.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-pub(super) struct Args {
+pub struct Args {
     #[command(flatten)]
     pub(super) scene: SceneArgs,
     #[command(flatten)]

@@ -4,9 +4,10 @@ use super::Args;
 use crate::cli::{Input, Progress, refuse_parts, usage};
 use crate::photons::PATHS;
 use anyhow::{Context as _, bail};
-use pm_formats::vocabulary::{Part, meaning, measure};
+use pm_formats::vocabulary::{Part, measure};
 use pm_formats::{
-    BlockMeta, BlockReader, Header, Number, RecordReader, RecordWriter, StageReport, UnroundedPhoton, whole_header,
+    BlockMeta, BlockReader, Header, Number, RecordReader, RecordWriter, StageReport, UnroundedPhoton, part_of,
+    whole_header,
 };
 use pm_light::transport::photon_rounding;
 use std::iter::Peekable;
@@ -84,8 +85,7 @@ struct Source {
 
 impl Source {
     fn new(name: String, blocks: BlockReader<Input>) -> anyhow::Result<Self> {
-        let part = blocks.header().meaning(meaning::PART).and_then(|part| part.parse().ok());
-        let part = part.ok_or_else(|| usage(format!("{name}: not a part of a stream")))?;
+        let part = part_of(blocks.header()).ok_or_else(|| usage(format!("{name}: not a part of a stream")))?;
         let reader = RecordReader::from_blocks(blocks).with_context(|| name.clone())?;
         Ok(Self { name, part, reader, batch: 0, photons: vec![].into_iter().peekable() })
     }

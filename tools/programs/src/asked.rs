@@ -1,11 +1,30 @@
 //! Options as they were typed, to be handed on to another program.
 
+use crate::setting::{CameraArgs, SceneArgs};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Args, Command};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+
+/// What was asked: options, and those of the scene and the camera as they go to other programs.
+pub struct Asked<A> {
+    pub(crate) args: A,
+    pub(crate) scene: Vec<String>,
+    pub(crate) camera: Vec<String>,
+}
+
+impl<A: FromArgMatches> Asked<A> {
+    /// What these matches say.
+    pub(crate) fn read(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self {
+            args: A::from_arg_matches(matches)?,
+            scene: of::<SceneArgs>(matches),
+            camera: of::<CameraArgs>(matches),
+        })
+    }
+}
 
 /// The options of `A` that were typed, each as one word so that no value is taken for an option; what stands in its place,
 /// such as the name of a file, comes last.
-pub(crate) fn of<A: Args>(matches: &ArgMatches) -> Vec<String> {
+fn of<A: Args>(matches: &ArgMatches) -> Vec<String> {
     let command = A::augment_args(Command::new("options"));
     let typed = |argument: &&Arg| matches.value_source(argument.get_id().as_str()) == Some(ValueSource::CommandLine);
     let (options, places): (Vec<_>, Vec<_>) =
