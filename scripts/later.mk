@@ -6,5 +6,5 @@ later: out/later/report.html ## What came after the paper: hints of a few bits, 
 
 out/later/report.html: scripts/later.toml out/hints.csv out/curves.csv out/software.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
-	$(BIN)/pm-chart -q --page $< -o $@
+	$(BIN)/pm-chart -q --anyway --page $< -o $@
 	@echo "After the paper: $@"
