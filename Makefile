@@ -11,7 +11,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability faults licences bench later bench-traces man options test-cluster install dist clean clean-streams
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz licences bench later bench-traces man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -132,6 +132,14 @@ stability: ## Photon maps under stress: out/stability.txt, a table of structures
 
 faults: programs ## Kills, full disks, refused memory and threads, two makes, folders of others
 	scripts/faults.sh $(BIN)
+
+SECONDS ?= 60
+SEED ?= 0
+TARGETS ?=
+
+fuzz: ## SECONDS=60: each reader given changed inputs for so long, debug assertions on; SEED=0, TARGETS='mended parts'
+	$(CARGO) build --release --manifest-path tests/fuzz/Cargo.toml --target-dir target/fuzz
+	target/fuzz/release/pm-fuzz $(SECONDS) $(SEED) $(TARGETS)
 
 licences: ## What may be built upon: licences, sources, versions (needs cargo-deny)
 	$(CARGO) deny --config scripts/deny.toml check licenses bans sources

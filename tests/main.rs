@@ -13,6 +13,7 @@ mod damage;
 mod estimates;
 mod files;
 mod foreign;
+mod fuzz;
 mod guide;
 mod invariance;
 mod leaks;

@@ -145,10 +145,11 @@ impl<R: Read> BlockReader<R> {
                 if order.is_some_and(|order| order != self.order.sum()) {
                     return Err(self.damaged("the end block speaks of other blocks, or of these in another order"));
                 }
-                self.end = Some(end);
                 if read_up_to(&mut self.input, &mut [0])? > 0 {
                     return Err(self.damaged("bytes follow the end block"));
                 }
+                // Now only: who asks for the end after an error is to have none.
+                self.end = Some(end);
                 Ok(None)
             }
         }

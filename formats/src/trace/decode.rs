@@ -6,12 +6,12 @@ use super::heap_walk;
 use super::varint::{take, unzigzag};
 use crate::container::{Block, Section};
 use crate::digest::Tally;
-use crate::region::{Coding, Region};
+use crate::region::{Coding, Region, check_regions};
 
-/// Replays the searches of a block; `None` if it does not hold what it says. What was replayed before the fault was
-/// found is then worthless.
+/// Replays the searches of a block; `None` if it does not hold what it says, or of regions that make no sense. What was
+/// replayed before the fault was found is then worthless.
 pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceSink) -> Option<Tally> {
-    if block.section != Section::Records {
+    if block.section != Section::Records || check_regions(regions).is_err() {
         return None;
     }
     let payload = block.decode()?;
