@@ -18,6 +18,16 @@ pub enum Coding {
     /// The region is all of a 64-bit address space, of which nobody knows beforehand what is touched: traces of other
     /// programs. Offsets are addresses; blocks are those of the 4 KiB pages that turn out to be touched.
     Addresses,
+    /// This region and the next hold an implicit binary tree of `leaves` leaves: nodes 1 to `leaves - 1`, with children `2i`
+    /// and `2i + 1`, are the records of this one, the nodes from `leaves` on those of the next. Depth-first walks of it are
+    /// coded as those of [`HeapWalk`](Self::HeapWalk).
+    LeavesApart {
+        /// Number of leaves; there is one node less above them.
+        leaves: u32,
+    },
+    /// Whole records of all regions of this coding, at most [`MAX_IN_TURNS`], are read in turns: of each its region, and how
+    /// far it is from the one read last of that region.
+    InTurns,
 }
 
 /// One region of the traced memory. No two regions of a trace share a 4 KiB page.
@@ -48,6 +58,11 @@ impl Region {
         self.coding == Coding::Addresses
     }
 
+    /// Whether it has room for so many records, of at least a byte each.
+    fn has_room(&self, records: u32) -> bool {
+        self.record_size > 0 && u64::from(records) * u64::from(self.record_size) <= self.size
+    }
+
     /// Whether `len` bytes at `offset`, no more than [`MAX_ACCESS`], lie within it; a record of no bytes lies at its offset.
     #[inline]
     #[must_use]
@@ -62,6 +77,9 @@ impl Region {
 
 /// Longest access, and longest record, in bytes: whoever reads a damaged length meets longer ones soon, and each byte costs time.
 pub const MAX_ACCESS: u32 = 1 << 24;
+
+/// Most regions of a trace that are coded in turns: what is known of each is forgotten with each search.
+pub const MAX_IN_TURNS: usize = 64;
 
 /// Granularity at which regions are kept apart in the traced address space.
 pub const REGION_ALIGNMENT: u64 = 4096;
@@ -105,17 +123,42 @@ pub(crate) fn check_regions(regions: &[Region]) -> std::result::Result<(), &'sta
         if !region.base.is_multiple_of(REGION_ALIGNMENT) {
             return Err("a region does not begin on a page");
         }
-        if let Coding::HeapWalk { nodes, .. } = region.coding {
-            let needed = u64::from(nodes) * u64::from(region.record_size);
-            if nodes > MAX_NODES || region.record_size == 0 || needed > region.size {
-                return Err("a region is smaller than its nodes");
-            }
-        }
+        check_nodes(region)?;
         spans.push((region.base, end.next_multiple_of(REGION_ALIGNMENT)));
     }
+    check_groups(regions)?;
     spans.sort_unstable();
     if spans.windows(2).any(|pair| pair[0].1 > pair[1].0) {
         return Err("two regions share a page");
     }
     Ok(())
+}
+
+/// A tree lies in its region.
+fn check_nodes(region: &Region) -> std::result::Result<(), &'static str> {
+    let Coding::HeapWalk { nodes, .. } = region.coding else { return Ok(()) };
+    match nodes <= MAX_NODES && region.has_room(nodes) {
+        true => Ok(()),
+        false => Err("a region is smaller than its nodes"),
+    }
+}
+
+/// Regions that are coded together have what it takes.
+fn check_groups(regions: &[Region]) -> std::result::Result<(), &'static str> {
+    for (at, region) in regions.iter().enumerate() {
+        let Coding::LeavesApart { leaves } = region.coding else { continue };
+        let below = regions.get(at + 1).filter(|next| next.coding == Coding::Records);
+        let below = below.ok_or("a tree has no region of leaves behind it")?;
+        if leaves > MAX_NODES / 2 || !region.has_room(leaves.saturating_sub(1)) || !below.has_room(leaves) {
+            return Err("a region is smaller than its nodes");
+        }
+    }
+    let mut in_turns = regions.iter().filter(|region| region.coding == Coding::InTurns);
+    if in_turns.clone().count() > MAX_IN_TURNS {
+        return Err("more than 64 regions are coded in turns");
+    }
+    match in_turns.all(|region| region.record_size > 0) {
+        true => Ok(()),
+        false => Err("a region that is coded in turns has records of no bytes"),
+    }
 }

@@ -4,12 +4,14 @@ mod access;
 mod bits;
 mod decode;
 mod encode;
+mod groups;
 mod heap_walk;
+mod in_turns;
 mod reader;
 mod varint;
 mod writer;
 
-pub use crate::region::{Coding, MAX_ACCESS, REGION_ALIGNMENT, Region, lay_out};
+pub use crate::region::{Coding, MAX_ACCESS, MAX_IN_TURNS, REGION_ALIGNMENT, Region, lay_out};
 pub use access::{Access, AccessKind, TraceSink};
 pub use decode::decode_searches;
 pub use encode::BlockEncoder;

@@ -17,6 +17,10 @@ const STREAMS: [(&str, u64, &str); 5] = [
     ("windows.pmt", 53, "cb3eed7fb799cb3d75116cb46ce817d4"),
 ];
 
+/// Regions that are coded together, kept of version 2 only.
+const STREAMS_OF_VERSION_2: [(&str, u64, &str); 2] =
+    [("apart.pmt", 95, "f492ed74e02a3fdd198bad03ff10dfd1"), ("turns.pmt", 95, "f5025c3c9fc0437901565e0c4da10cee")];
+
 fn kept(version: u16, name: &str) -> Vec<u8> {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/golden", &format!("v{version}-{name}")].iter().collect();
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -94,6 +98,20 @@ fn every_version_is_read() {
             let tally = read(&bytes).unwrap_or_else(|error| panic!("v{version}-{name}: {error}"));
             assert_eq!((tally.records, &*tally.digest.to_string()), (number, digest), "v{version}-{name}");
             assert_eq!(BlockReader::new(&bytes[..]).unwrap().version(), version);
+        }
+    }
+}
+
+#[test]
+fn streams_of_version_2_alone_are_read() {
+    for (name, number, digest) in STREAMS_OF_VERSION_2 {
+        let bytes = kept(2, name);
+        let tally = read(&bytes).unwrap();
+        assert_eq!((tally.records, &*tally.digest.to_string()), (number, digest), "{name}");
+        assert!(rewritten(&bytes) == bytes, "{name}");
+        let whole = pieces(&bytes);
+        for at in 1..whole.len() - 1 {
+            is_refused(name, &[&whole[..at], &whole[at + 1..]].concat());
         }
     }
 }

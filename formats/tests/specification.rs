@@ -165,3 +165,50 @@ fn a_trace_by_its_planes() {
     search.extend(heads.iter().chain(&walks).chain(&others));
     assert_eq!(tally.digest.0, xxh3_128(&search));
 }
+
+#[test]
+fn reads_that_are_coded_together_by_their_planes() {
+    let regions = lay_out([
+        ("splits".into(), 16, 8, Coding::LeavesApart { leaves: 3 }),
+        ("leaves".into(), 300, 100, Coding::Records),
+        ("buckets".into(), 6400, 64, Coding::InTurns),
+        ("blocks".into(), 6400, 64, Coding::InTurns),
+    ]);
+    let mut encoder = BlockEncoder::new(&regions);
+    encoder.begin(&[4]);
+    // Nodes 1 and 2, leaves 5 and 4: left first (0), right first (1), the left one too (1), and not node 3 (0).
+    encoder.records(0, &[0, 1]);
+    encoder.records(1, &[2, 1]);
+    // Record 9 of the first, 3 and then 1 of the second, 10 of the first.
+    encoder.records(2, &[9]);
+    encoder.records(3, &[3, 1]);
+    encoder.records(2, &[10]);
+    encoder.end();
+    let (written, tally) = encoder.finish(BlockMeta::default()).unwrap();
+    let mut stream_header = sample_header();
+    stream_header.regions = regions;
+    let mut writer = TraceWriter::new(vec![], &stream_header).unwrap();
+    writer.write(&written, tally).unwrap();
+    let stream = writer.finish(vec![]).unwrap();
+
+    let (record, rest) = header(&stream, 3);
+    let at = record.windows(6).position(|bytes| bytes == b"splits").unwrap();
+    // Base, size, bytes of a record, coding 3 with 3 leaves.
+    assert_eq!(
+        (u64_at(record, at + 14), u32_at(record, at + 22), u32_at(record, at + 26), u32_at(record, at + 30)),
+        (16, 8, 3, 3)
+    );
+    let at = record.windows(6).position(|bytes| bytes == b"blocks").unwrap();
+    assert_eq!(u32_at(record, at + 26), 4);
+
+    let (_, _, _, _, payload, _) = block(rest);
+    // Two segments: the walk, and four reads in turns.
+    let heads = [2, 1, 5, 4];
+    let destinations = [1, 8];
+    let walks = [0b0110];
+    // Zigzag differences +9, +3, -2, +1, each above a bit that says which region.
+    let others = [36, 13, 7, 4];
+    let lens = [4u32, 2, 1].iter().flat_map(|len| len.to_le_bytes());
+    let expected: Vec<u8> = lens.chain(heads).chain(destinations).chain(walks).chain(others).collect();
+    assert_eq!(payload, expected);
+}

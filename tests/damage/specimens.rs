@@ -91,6 +91,10 @@ fn trace() -> Vec<u8> {
     let regions: Vec<Region> = lay_out([
         ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7, reread: false }),
         ("list".to_owned(), 4096, 16, Coding::Records),
+        ("splits".to_owned(), 16, 8, Coding::LeavesApart { leaves: 3 }),
+        ("leaves".to_owned(), 384, 128, Coding::Records),
+        ("buckets".to_owned(), 4096, 64, Coding::InTurns),
+        ("blocks".to_owned(), 4096, 64, Coding::InTurns),
     ]);
     let header = Header { regions, ..header("pm-gather") };
     let mut writer = TraceWriter::new(vec![], &header).expect("a header");
@@ -100,6 +104,10 @@ fn trace() -> Vec<u8> {
             encoder.begin(&[batch * EACH + i]);
             encoder.records(0, &[0, 1, 3, 4][..1 + i as usize % 4]);
             encoder.records(1, &[i * 40, batch, 255 - i]);
+            encoder.records(2, &[0, 1]);
+            encoder.records(3, &[1, 2]);
+            encoder.records(4, &[i, 9]);
+            encoder.records(5, &[7 * i]);
             encoder.end();
         }
         let meta = BlockMeta { batch: batch.into(), ..BlockMeta::default() };

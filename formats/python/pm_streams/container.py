@@ -20,7 +20,11 @@ class DamagedStream(Exception):
 
 @dataclass
 class Region:
-    """A part of the traced memory. `coding` is "records", "addresses" (all of 64 bits), or "heap walk" with its number of nodes."""
+    """A part of the traced memory.
+
+    `coding` is "records", "heap walk" with its number of nodes, "addresses" (all of 64 bits), "leaves apart" with the number of
+    nodes of the whole tree, or "in turns".
+    """
 
     name: str
     base: int
@@ -28,6 +32,7 @@ class Region:
     record_size: int
     coding: str
     nodes: int = 0
+    leaves: int = 0
     reread: bool = False
 
 
@@ -126,9 +131,29 @@ def _region(fields):
         region.nodes, region.reread = fields.take("I?")
     elif number == 2:
         region.coding = "addresses"
+    elif number == 3:
+        leaves = fields.take("I")
+        region.coding, region.leaves, region.nodes = "leaves apart", leaves, max(2 * leaves - 1, 0)
+    elif number == 4:
+        region.coding = "in turns"
     elif number != 0:
         raise DamagedStream(f"region {region.name!r} has coding {number}, which is not known")
     return region
+
+
+def _check_together(regions):
+    """Regions that are coded together must have what it takes."""
+    in_turns = [region for region in regions if region.coding == "in turns"]
+    if len(in_turns) > 64 or not all(region.record_size for region in in_turns):
+        raise DamagedStream("regions cannot be coded in turns")
+    for tree, below in zip(regions, [*regions[1:], None]):
+        if tree.coding != "leaves apart":
+            continue
+        if below is None or below.coding != "records" or tree.leaves >= 1 << 30 or not tree.record_size or not below.record_size:
+            raise DamagedStream("a tree has no region of leaves behind it")
+        inner = max(tree.leaves - 1, 0)
+        if inner * tree.record_size > tree.size or tree.leaves * below.record_size > below.size:
+            raise DamagedStream("a region is smaller than its nodes")
 
 
 def _header(data):
@@ -147,6 +172,7 @@ def _header(data):
     expected = fields.option(lambda: fields.take("Q"))
     meaning = dict(fields.list(lambda: (fields.text(), fields.text())))
     regions = fields.list(lambda: _region(fields))
+    _check_together(regions)
     history = fields.list(lambda: _step(fields))
     return fields.done(Header(bounds, image, materials, expected, meaning, regions, history))
 

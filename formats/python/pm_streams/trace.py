@@ -95,6 +95,14 @@ def _walk(bits, at, nodes, reread, reads):
             return at
 
 
+def _leaves_apart(nodes, region, number, below):
+    """Numbers of the regions, offsets and lengths of reads of nodes, the first of which is 0."""
+    leaf = nodes >= region.leaves - 1
+    lengths = np.where(leaf, below.record_size, region.record_size).astype(np.uint32)
+    offsets = np.where(leaf, nodes - (region.leaves - 1), nodes) * lengths
+    return (number + leaf).astype(np.uint16), offsets, lengths
+
+
 def _others(plane, count, region, last):
     """Accesses that are spelled out: kinds, offsets, lengths, and the last value."""
     kinds, offsets, lengths = [], [], []
@@ -114,6 +122,25 @@ def _others(plane, count, region, last):
     return kinds, offsets, lengths, last
 
 
+def _in_turns(plane, count, regions, last):
+    """Reads of whole records in turns of these regions, (number, region) each: numbers of their regions, offsets, lengths."""
+    bits = (len(regions) - 1).bit_length()
+    numbers, offsets, lengths = [], [], []
+    for _ in range(count):
+        token = plane.take()
+        rank = token & (1 << bits) - 1
+        if rank >= len(regions):
+            raise DamagedStream("a search reads a region that is not there")
+        last[rank] += _unzigzag(token >> bits)
+        number, region = regions[rank]
+        if not 0 <= last[rank] < region.size // region.record_size:
+            raise DamagedStream("an access lies outside its region")
+        numbers.append(number)
+        offsets.append(last[rank] * region.record_size)
+        lengths.append(region.record_size)
+    return np.array(numbers, np.uint16), offsets, np.array(lengths, np.uint32)
+
+
 def decode(block, regions):
     """The accesses of a block, and what its searches add to the digest."""
     if len(block.payload) < 12:
@@ -125,6 +152,7 @@ def decode(block, regions):
     walks, spelled = block.payload[ends[2] : ends[3]], block.payload[ends[3] :]
     # Where the region is all addresses the last plane has eight bytes for each access, and no integers of any length.
     of_addresses = any(region.coding == "addresses" for region in regions)
+    in_turns = [(number, region) for number, region in enumerate(regions) if region.coding == "in turns"]
     others, address = _Integers(b"" if of_addresses else spelled), 0
     bits, walked = np.unpackbits(np.frombuffer(walks, np.uint8), bitorder="little").tolist(), 0
     parts, per_search, pixels, digest, pixel = [], [], [], 0, 0
@@ -135,11 +163,11 @@ def decode(block, regions):
             pixel += _unzigzag(destinations.take())
             served.append(pixel)
         pixels.append(served)
-        last, at, count = 0, 8 * walked, 0
+        last, at, count, last_in_turns = 0, 8 * walked, 0, [0] * len(in_turns)
         for _ in range(heads.take()):
             head = heads.take()
             number, region = head >> 1, regions[head >> 1] if head >> 1 < len(regions) else None
-            if region is None or (head & 1) != (1 if of_addresses else head & (region.coding == "heap walk")):
+            if region is None or (head & 1) != (1 if of_addresses else head & (region.coding != "records")):
                 raise DamagedStream("a search reads a region that is not there")
             if of_addresses:
                 accesses, kinds, lengths = heads.take(), heads.take(), heads.take()
@@ -149,6 +177,9 @@ def decode(block, regions):
                 offsets, address = np.frombuffer(spelled[address:end], "<u8"), end
                 if len(offsets) and int(offsets.max()) + max(lengths, 1) > 1 << 64:
                     raise DamagedStream("an access lies outside its region")
+            elif head & 1 and region.coding == "in turns":
+                number, offsets, lengths = _in_turns(others, heads.take(), in_turns, last_in_turns)
+                kinds = READ
             elif head & 1:
                 reads = []
                 try:
@@ -157,6 +188,8 @@ def decode(block, regions):
                     raise DamagedStream("a walk ends before its tree does") from None
                 offsets = np.array(reads, np.uint64) * np.uint64(region.record_size)
                 kinds, lengths = READ, region.record_size
+                if region.coding == "leaves apart":
+                    number, offsets, lengths = _leaves_apart(np.array(reads, np.int64), region, number, regions[number + 1])
             else:
                 kinds, offsets, lengths, last = _others(others, heads.take(), region, last)
             parts.append((number, kinds, np.array(offsets, np.uint64), lengths))

@@ -19,6 +19,11 @@ STREAMS = {
     "tiled.pmt": (95, 3065, "56ac14809c3609dff92f8cb580580110"),
     "windows.pmt": (53, 1643, "cb3eed7fb799cb3d75116cb46ce817d4"),
 }
+# Kept of version 2 only: regions that are coded together.
+STREAMS_OF_VERSION_2 = {
+    "apart.pmt": (95, 1351, "f492ed74e02a3fdd198bad03ff10dfd1"),
+    "turns.pmt": (95, 4012, "f5025c3c9fc0437901565e0c4da10cee"),
+}
 
 
 def read(source):
@@ -53,6 +58,31 @@ class Golden(unittest.TestCase):
                 self.assertEqual(read(str(path)), expected, path)
                 with pm_streams.open(str(path)) as stream:
                     self.assertEqual(stream.version, version)
+
+    def test_streams_of_version_2(self):
+        for name, expected in STREAMS_OF_VERSION_2.items():
+            self.assertEqual(read(str(GOLDEN / f"v2-{name}")), expected, name)
+        with pm_streams.open(str(GOLDEN / "v2-apart.pmt")) as stream:
+            splits, leaves = stream.header.regions
+            self.assertEqual((splits.coding, splits.leaves, leaves.coding), ("leaves apart", 51, "records"))
+            for block in stream.accesses():
+                # A search begins at the root, and the last it reads is a leaf, all of it.
+                first = np.flatnonzero(np.diff(block.search, prepend=-1))
+                self.assertEqual((block.region[first] + block.offset[first].astype(int)).max(), 0)
+                last = np.append(first[1:], len(block)) - 1
+                self.assertEqual(set(zip(block.region[last].tolist(), block.length[last].tolist())), {(1, 128)})
+
+    def test_regions_that_cannot_be_coded_together(self):
+        apart = (GOLDEN / "v2-apart.pmt").read_bytes()
+        splits, leaves = (apart.index(name) for name in (b"splits", b"photon leaves"))
+        # A tree of more leaves than there is room for; a region behind it that is coded otherwise.
+        for at in (splits + 6 + 8 + 8 + 4 + 4, leaves + 13 + 8 + 8 + 4):
+            header = bytearray(apart)
+            header[at] += 4
+            record = header[24 : 24 + int.from_bytes(header[12:16], "little")]
+            header[16:24] = xxh3_64(bytes(header[:16] + record)).to_bytes(8, "little")
+            with self.assertRaises(pm_streams.DamagedStream, msg=at):
+                read(io.BytesIO(bytes(header)))
 
     def test_blocks_out_of_order(self):
         for name in STREAMS:

@@ -2,7 +2,9 @@
 
 use super::access::{Access, AccessKind, TraceSink};
 use super::bits::BitReader;
+use super::groups::nodes_of;
 use super::heap_walk;
+use super::in_turns::InTurns;
 use super::varint::{take, unzigzag};
 use crate::container::{Block, Section};
 use crate::digest::Tally;
@@ -19,6 +21,7 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
     let mut tally = Tally::default();
     let (mut pixels, mut scratch) = (vec![], vec![]);
     let mut last_pixel = 0u32;
+    let mut in_turns = InTurns::of(regions);
     sink.block(block.meta.batch, block.meta.warm_up);
     for _ in 0..block.meta.records {
         let before = planes;
@@ -31,7 +34,8 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
             pixels.push(last_pixel);
         }
         sink.search(&pixels);
-        decode_accesses(&mut planes, regions, sink)?;
+        in_turns.restart();
+        decode_accesses(&mut planes, regions, &mut in_turns, sink)?;
         sink.search_end();
 
         // The digest is that of the absolute pixels and of the search's own bytes: the same wherever it stands.
@@ -47,7 +51,12 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
     planes.is_empty().then_some(tally)
 }
 
-fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl TraceSink) -> Option<()> {
+fn decode_accesses(
+    planes: &mut Planes<'_>,
+    regions: &[Region],
+    in_turns: &mut InTurns,
+    sink: &mut impl TraceSink,
+) -> Option<()> {
     let mut bits = BitReader::new(planes.walks);
     let mut last = 0i64;
     for _ in 0..take(&mut planes.heads)? {
@@ -63,12 +72,30 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
             continue;
         }
         if head & 1 == 1 {
-            let Coding::HeapWalk { nodes, reread } = region.coding else { return None };
-            let read = |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
-            if reread {
-                heap_walk::decode::<true>(&mut bits, nodes, read)?;
-            } else {
-                heap_walk::decode::<false>(&mut bits, nodes, read)?;
+            match region.coding {
+                Coding::InTurns => {
+                    let count = take(&mut planes.heads)?;
+                    in_turns.decode(count, &mut planes.others, sink)?;
+                }
+                Coding::LeavesApart { leaves } => {
+                    decode_leaves_apart(
+                        &mut bits,
+                        leaves,
+                        number,
+                        [size, regions.get(usize::from(number) + 1)?.record_size],
+                        sink,
+                    )?;
+                }
+                Coding::HeapWalk { nodes, reread } => {
+                    let read =
+                        |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
+                    if reread {
+                        heap_walk::decode::<true>(&mut bits, nodes, read)?;
+                    } else {
+                        heap_walk::decode::<false>(&mut bits, nodes, read)?;
+                    }
+                }
+                Coding::Records | Coding::Addresses => return None,
             }
             continue;
         }
@@ -92,6 +119,21 @@ fn decode_accesses(planes: &mut Planes<'_>, regions: &[Region], sink: &mut impl 
     bits.align();
     planes.walks = planes.walks.get(bits.bytes_read()..)?;
     Some(())
+}
+
+/// A walk of a tree whose inner nodes are the records of a region and whose leaves are those of the next.
+fn decode_leaves_apart(
+    bits: &mut BitReader<'_>,
+    leaves: u32,
+    inner: u16,
+    sizes: [u32; 2],
+    sink: &mut impl TraceSink,
+) -> Option<()> {
+    heap_walk::decode::<false>(bits, nodes_of(leaves), |node| {
+        let is_leaf = node >= leaves;
+        let (record, size) = if is_leaf { (node - leaves, sizes[1]) } else { (node - 1, sizes[0]) };
+        sink.access(Access::read(inner + u16::from(is_leaf), u64::from(record) * u64::from(size), size));
+    })
 }
 
 /// Accesses of one kind and length anywhere among all addresses.

@@ -2,7 +2,9 @@
 
 use super::access::{Access, AccessKind};
 use super::bits::BitWriter;
+use super::groups::{Group, nodes_of};
 use super::heap_walk;
+use super::in_turns::InTurns;
 use super::varint::{push, zigzag};
 use crate::container::{Block, BlockMeta};
 use crate::digest::Tally;
@@ -18,6 +20,8 @@ const LEVEL: i32 = 3;
 /// [`end`](Self::end). What a search costs and what its digest is do not depend on the searches around it.
 pub struct BlockEncoder<'a> {
     regions: &'a [Region],
+    groups: Vec<Group>,
+    in_turns: InTurns,
     heads: Vec<u8>,
     destinations: Vec<u8>,
     walks: BitWriter,
@@ -41,6 +45,8 @@ struct Current {
     last: i64,
     /// Accesses to addresses, all of this kind and length, that have no segment yet, and how many.
     run: Option<(AccessKind, u32, u64)>,
+    /// Reads of records of regions that are coded together, all of one group, that have no segment yet.
+    together: Vec<(u16, u32)>,
     pixels: Vec<u32>,
 }
 
@@ -50,6 +56,8 @@ impl<'a> BlockEncoder<'a> {
     pub fn new(regions: &'a [Region]) -> Self {
         Self {
             regions,
+            groups: Group::of(regions),
+            in_turns: InTurns::of(regions),
             heads: vec![],
             destinations: vec![],
             walks: BitWriter::default(),
@@ -76,6 +84,8 @@ impl<'a> BlockEncoder<'a> {
         current.others_from = self.others.len();
         current.last = 0;
         current.run = None;
+        current.together.clear();
+        self.in_turns.restart();
         current.pixels.clear();
         current.pixels.extend_from_slice(destinations);
     }
@@ -88,6 +98,13 @@ impl<'a> BlockEncoder<'a> {
     /// If they are not; if the region is all addresses, which has no records.
     pub fn records(&mut self, region: u16, indices: &[u32]) {
         assert!(!self.regions[usize::from(region)].is_addresses(), "addresses are no records");
+        let group = self.groups[usize::from(region)];
+        if !self.current.together.last().is_none_or(|&(before, _)| self.groups[usize::from(before)].is_with(group)) {
+            self.end_together();
+        }
+        if group != Group::Alone {
+            return self.current.together.extend(indices.iter().map(|&index| (region, index)));
+        }
         let mut rest = indices;
         if let Coding::HeapWalk { nodes, reread } = self.regions[usize::from(region)].coding {
             while let Some(len) = heap_walk::encode(rest, nodes, &mut self.walks) {
@@ -97,13 +114,58 @@ impl<'a> BlockEncoder<'a> {
             assert!(rest.is_empty() || !reread, "second touches are implied by walks only");
         }
         if !rest.is_empty() {
-            self.segment(region, false, rest.len() as u64);
-            for &index in rest {
-                let delta = i64::from(index) - self.current.last;
-                push(&mut self.others, zigzag(delta) << 1);
-                self.current.last = i64::from(index);
+            self.spelled_out(region, rest.iter().copied());
+        }
+    }
+
+    /// Reads of records of one region, one by one.
+    fn spelled_out(&mut self, region: u16, indices: impl ExactSizeIterator<Item = u32>) {
+        self.segment(region, false, indices.len() as u64);
+        for index in indices {
+            let delta = i64::from(index) - self.current.last;
+            push(&mut self.others, zigzag(delta) << 1);
+            self.current.last = i64::from(index);
+        }
+    }
+
+    /// Writes the segments of the reads that were kept to be coded together.
+    fn end_together(&mut self) {
+        let mut reads = std::mem::take(&mut self.current.together);
+        match reads.first().map(|&(region, _)| (region, self.groups[usize::from(region)])) {
+            None | Some((_, Group::Alone)) => {}
+            Some((region, Group::Turns { .. })) => {
+                self.segment(region, true, 0);
+                push(&mut self.current.heads, reads.len() as u64);
+                for &(region, index) in &reads {
+                    let Group::Turns { rank } = self.groups[usize::from(region)] else { unreachable!("one group") };
+                    self.in_turns.encode(rank, index, &mut self.others);
+                }
+            }
+            Some((_, Group::Tree { inner, leaves })) => {
+                // A record that no node is ends every walk.
+                let node = |&(region, index): &(u16, u32)| match region == inner {
+                    true => {
+                        if index < leaves.saturating_sub(1) {
+                            index
+                        } else {
+                            u32::MAX
+                        }
+                    }
+                    false => leaves.saturating_sub(1).saturating_add(index),
+                };
+                let nodes: Vec<u32> = reads.iter().map(node).collect();
+                let mut at = 0;
+                while let Some(len) = heap_walk::encode(&nodes[at..], nodes_of(leaves), &mut self.walks) {
+                    self.segment(inner, true, 0);
+                    at += len;
+                }
+                for run in reads[at..].chunk_by(|a, b| a.0 == b.0) {
+                    self.spelled_out(run[0].0, run.iter().map(|&(_, index)| index));
+                }
             }
         }
+        reads.clear();
+        self.current.together = reads;
     }
 
     /// The search makes an access of any kind.
@@ -122,6 +184,7 @@ impl<'a> BlockEncoder<'a> {
             #[expect(clippy::cast_possible_truncation, reason = "checked above")]
             return self.records(access.region, &[(access.offset / size) as u32]);
         }
+        self.end_together();
         self.segment(access.region, false, 1);
         push(&mut self.others, ((access.kind as u64) << 1) | 1);
         push(&mut self.others, zigzag(access.offset as i64 - self.current.last));
@@ -161,6 +224,7 @@ impl<'a> BlockEncoder<'a> {
     /// The search is over.
     pub fn end(&mut self) {
         self.end_run();
+        self.end_together();
         self.walks.align();
         let from = self.heads.len();
         push(&mut self.heads, self.current.segments);

@@ -105,8 +105,8 @@ impl PhotonMap for BlockHash {
     fn regions(&self, _: bool) -> Vec<Region> {
         let line = u64::from(self.line);
         lay_out([
-            ("hash buckets".into(), self.buckets() as u64 * line, self.line, Coding::Records),
-            ("photon blocks".into(), self.blocks.len() as u64 * line, self.line, Coding::Records),
+            ("hash buckets".into(), self.buckets() as u64 * line, self.line, Coding::InTurns),
+            ("photon blocks".into(), self.blocks.len() as u64 * line, self.line, Coding::InTurns),
         ])
     }
 

@@ -99,9 +99,14 @@ impl PhotonMap for BucketKdTree {
     fn regions(&self, _: bool) -> Vec<Region> {
         let split = size_of::<Split>() as u32;
         let bytes = |count: usize, record: u32| count as u64 * u64::from(record);
+        let (above, below) = if self.records.is_empty() {
+            (Coding::LeavesApart { leaves: self.leaves.len() as u32 }, Coding::Records)
+        } else {
+            (Coding::InTurns, Coding::InTurns)
+        };
         lay_out([
-            ("splits".into(), bytes(self.splits.len(), split), split, Coding::Records),
-            ("photon leaves".into(), bytes(self.leaves.len(), self.line), self.line, Coding::Records),
+            ("splits".into(), bytes(self.splits.len(), split), split, above),
+            ("photon leaves".into(), bytes(self.leaves.len(), self.line), self.line, below),
         ])
     }
 

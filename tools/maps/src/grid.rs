@@ -114,8 +114,8 @@ impl PhotonMap for Grid {
         match self.fixed {
             Some((bytes, line)) => lay_out([("cells".into(), cells * u64::from(bytes), line, Coding::Records)]),
             None => lay_out([
-                ("cell directory".into(), cells * u64::from(ENTRY), ENTRY, Coding::Records),
-                ("photons".into(), self.points.len() as u64 * u64::from(photon), photon, Coding::Records),
+                ("cell directory".into(), cells * u64::from(ENTRY), ENTRY, Coding::InTurns),
+                ("photons".into(), self.points.len() as u64 * u64::from(photon), photon, Coding::InTurns),
             ]),
         }
     }

@@ -119,8 +119,8 @@ impl PhotonMap for KdbTree {
     fn regions(&self, _: bool) -> Vec<Region> {
         let bytes = |count: usize| count as u64 * u64::from(self.line);
         lay_out([
-            ("region pages".into(), bytes(self.pages.len()), self.line, Coding::Records),
-            ("photon blocks".into(), bytes(self.blocks.len()), self.line, Coding::Records),
+            ("region pages".into(), bytes(self.pages.len()), self.line, Coding::InTurns),
+            ("photon blocks".into(), bytes(self.blocks.len()), self.line, Coding::InTurns),
         ])
     }
 

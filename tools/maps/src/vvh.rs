@@ -144,8 +144,8 @@ impl PhotonMap for VvhTree {
         let photon = size_of::<Photon>() as u32;
         let bytes = |count: usize, record: u32| count as u64 * u64::from(record);
         lay_out([
-            ("vvh nodes".into(), bytes(self.nodes.len(), NODE_BYTES), NODE_BYTES, Coding::Records),
-            ("photons".into(), bytes(self.points.len(), photon), photon, Coding::Records),
+            ("vvh nodes".into(), bytes(self.nodes.len(), NODE_BYTES), NODE_BYTES, Coding::InTurns),
+            ("photons".into(), bytes(self.points.len(), photon), photon, Coding::InTurns),
         ])
     }
 

@@ -90,8 +90,8 @@ impl PhotonMap for WideTree {
         let leaf = (WIDTH * size_of::<Photon>()) as u32;
         let bytes = |count: usize, record: u32| count as u64 * u64::from(record);
         lay_out([
-            ("nodes".into(), bytes(self.nodes.len(), node), node, Coding::Records),
-            ("photon leaves".into(), bytes(self.leaves.len(), leaf), leaf, Coding::Records),
+            ("nodes".into(), bytes(self.nodes.len(), node), node, Coding::InTurns),
+            ("photon leaves".into(), bytes(self.leaves.len(), leaf), leaf, Coding::InTurns),
         ])
     }
 

@@ -31,6 +31,10 @@ pub(super) fn header(kind: StreamKind, version: u16, header: &Header, output: &m
                 let twice = if reread { ", inner nodes read twice" } else { "" };
                 format!(", a tree of {} nodes{twice}", HumanCount(nodes.into()))
             }
+            Coding::LeavesApart { leaves } => {
+                format!(", a tree of {} leaves, which lie behind it", HumanCount(leaves.into()))
+            }
+            Coding::InTurns => ", read in turns".to_owned(),
             Coding::Addresses => {
                 line("region", format!("{}: all addresses of 64 bits", region.name))?;
                 continue;
