@@ -11,7 +11,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz licences bench later bench-traces man options test-cluster install dist clean clean-streams
+.PHONY: help programs run accuracy pictures coverage charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz same-bytes licences bench later bench-traces man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -96,6 +96,7 @@ include scripts/paper.mk
 include scripts/coverage.mk
 include scripts/bench.mk
 include scripts/later.mk
+include scripts/fuzz.mk
 
 # ---- make scenes ----------------------------------------------------------------------------------------------------
 
@@ -133,13 +134,10 @@ stability: ## Photon maps under stress: out/stability.txt, a table of structures
 faults: programs ## Kills, full disks, refused memory and threads, two makes, folders of others
 	scripts/faults.sh $(BIN)
 
-SECONDS ?= 60
-SEED ?= 0
-TARGETS ?=
-
-fuzz: ## SECONDS=60: each reader given changed inputs for so long, debug assertions on; SEED=0, TARGETS='mended parts'
-	$(CARGO) build --release --manifest-path tests/fuzz/Cargo.toml --target-dir target/fuzz
-	target/fuzz/release/pm-fuzz $(SECONDS) $(SEED) $(TARGETS)
+same-bytes: programs ## Small pipes with builds for debugging, for any and for this machine, and with 1, 2 and 7 threads: the same bytes
+	$(CARGO) build -p pm-programs --bins --target-dir target/same-bytes
+	RUSTFLAGS='-C target-cpu=native' $(CARGO) build --release -p pm-programs --bins --target-dir target/native
+	scripts/same-bytes.sh $(BIN) target/same-bytes/debug target/native/release
 
 licences: ## What may be built upon: licences, sources, versions (needs cargo-deny)
 	$(CARGO) deny --config scripts/deny.toml check licenses bans sources

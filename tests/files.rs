@@ -225,6 +225,40 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
 }
 
 #[test]
+fn memory_that_is_refused_is_an_error_in_a_line() {
+    let folder = folder();
+    let names = folder.names();
+    let mut refused = 0;
+    for line in
+        ["pm-photons -n 50000 -o out.pmp", "pm-photons -n 50000 -t 8 -o out.pmp", "pm-reorder hilbert q.pmq -o out.pmq"]
+    {
+        // From too little to begin with up to enough.
+        for megabytes in [10, 12, 14, 16, 20, 30, 45, 60, 100, 160] {
+            let outcome = folder.sh(&format!("ulimit -v {}; exec {line}", megabytes << 10));
+            let said = format!("{megabytes} MB, `{line}`: {} {}", outcome.code, outcome.stderr);
+            match outcome.code {
+                // The system could not load it.
+                127 => {}
+                0 => folder
+                    .names()
+                    .iter()
+                    .filter(|name| !names.contains(name))
+                    .for_each(|name| fs::remove_file(folder.path(name)).unwrap()),
+                1 => {
+                    refused += 1;
+                    let message =
+                        outcome.stderr.strip_suffix('\n').filter(|one| !one.contains('\n')).unwrap_or_default();
+                    assert!(message.contains("not enough memory"), "{said}");
+                }
+                _ => panic!("{said}"),
+            }
+            assert_eq!(folder.names(), names, "{said}");
+        }
+    }
+    assert!(refused > 0, "memory was never refused");
+}
+
+#[test]
 fn a_fifo_is_written_as_it_is() {
     let folder = folder();
     let expected = folder.run("pm-reorder hilbert q.pmq").ok().stdout;

@@ -16,7 +16,15 @@ pub struct Limits {
 }
 
 /// Bytes of memory for each query that is sorted: the record, its key, and key and index together.
-const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u32>() + size_of::<u64>()) as u64;
+const BYTES_A_QUERY: u64 = (size_of::<Query>() + KEY_BYTES) as u64;
+/// Those of them that are needed once it is known which queries are sorted.
+const KEY_BYTES: usize = size_of::<u32>() + size_of::<u64>();
+
+/// The system has less memory than [`Limits`] allow.
+fn no_memory() -> pm_formats::Error {
+    let text = "not enough memory to sort all queries in; with less --memory they are sorted in temporary files";
+    std::io::Error::new(std::io::ErrorKind::OutOfMemory, text).into()
+}
 
 /// Sorts queries by a 32-bit key; equal keys keep the order in which they came.
 pub struct Sorted<K> {
@@ -41,14 +49,17 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
     }
 
     /// What is held in memory, sorted: keys, and indices among the held.
-    fn sort_held(&mut self) -> Vec<u64> {
+    fn sort_held(&mut self) -> pm_formats::Result<Vec<u64>> {
+        let mut room: Vec<[u8; KEY_BYTES]> = vec![];
+        std::hint::black_box(room.try_reserve_exact(self.held.len())).map_err(|_| no_memory())?;
+        drop(room);
         let keys = (self.key)(&self.held);
         self.charge.came(&self.held, &keys);
         assert!(keys.len() <= 1 << 32, "more than 2^32 queries cannot be sorted at once");
         // Only (key, index) is sorted; each record moves once.
         let mut sorted: Vec<u64> = (0u64..).zip(keys).map(|(index, key)| u64::from(key) << 32 | index).collect();
         sorted.sort_unstable();
-        sorted
+        Ok(sorted)
     }
 
     /// Moves what is held in memory to the disk.
@@ -56,7 +67,7 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
         if !std::mem::replace(&mut self.announced, true) {
             (self.limits.announce)();
         }
-        let sorted = self.sort_held();
+        let sorted = self.sort_held()?;
         let held = &self.held;
         self.runs.add(sorted.iter().map(|&at| ((at >> 32) as u32, held[(at & 0xffff_ffff) as usize])))?;
         self.held.clear();
@@ -74,6 +85,7 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
                 self.spill_run()?;
             }
             let (now, later) = rest.split_at(rest.len().min(most - self.held.len()));
+            self.held.try_reserve(now.len()).map_err(|_| no_memory())?;
             self.held.extend_from_slice(now);
             rest = later;
         }
@@ -83,7 +95,7 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
     fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         let n = std::mem::take(&mut self.queries);
         if self.runs.is_empty() {
-            let sorted = self.sort_held();
+            let sorted = self.sort_held()?;
             self.charge.all_came(n, &self.costs);
             for at in sorted {
                 self.charge.left((at >> 32) as u32);

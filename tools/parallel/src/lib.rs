@@ -25,7 +25,9 @@ pub fn in_order<I: Send, O: Send, E>(
     let (result_sender, results) = bounded(3 * threads);
     std::thread::scope(|scope| {
         let mut given = 0;
-        for _ in 0..threads {
+        // Those that were given and left no memory for their work would be the end of all.
+        let most = (0..=threads).rev().find(|&given| is_room(given * A_THREADS_ROOM)).unwrap_or(0);
+        for _ in 0..most {
             let (jobs, results, work) = (jobs.clone(), result_sender.clone(), &work);
             let spawned = Builder::new().spawn_scoped(scope, move || {
                 for (number, job) in jobs {
@@ -69,6 +71,15 @@ pub fn in_order<I: Send, O: Send, E>(
             }
         }
     })
+}
+
+/// Memory that a thread has to find, in bytes of addresses: its stack, the 64 MiB that the C library sets apart for what it
+/// allocates, and a block's work beyond.
+const A_THREADS_ROOM: usize = 80 << 20;
+
+fn is_room(bytes: usize) -> bool {
+    let mut room: Vec<u8> = vec![];
+    std::hint::black_box(room.try_reserve_exact(bytes)).is_ok()
 }
 
 /// The same on the calling thread.

@@ -1,6 +1,7 @@
 //! Input streams: a file, or standard input by `-`.
 
 use super::claims;
+use super::memory::is_room_for_work;
 use super::usage::usage;
 use anyhow::{Context as _, bail};
 use pm_exchange::BadInput;
@@ -116,7 +117,8 @@ pub fn read_whole<T: Record>(path: &Path) -> anyhow::Result<Whole<T>> {
     let mut input = RecordReader::<T, _>::from_blocks(open_input(path)?).with_context(|| named(path))?;
     let mut records = vec![];
     while let Some((_, block)) = input.next_block().with_context(|| named(path))? {
-        if records.try_reserve(block.len()).is_err() {
+        let grows = records.capacity() - records.len() < block.len();
+        if grows && (records.try_reserve(block.len()).is_err() || !is_room_for_work()) {
             bail!("{}: not enough memory for more than its first {} records", named(path), records.len());
         }
         records.extend(block);

@@ -3,17 +3,41 @@
 use anyhow::bail;
 use pm_size::Bytes;
 
-/// Sees whether the system would give so many bytes for something. They are given back at once: whoever asks takes them next.
+/// What any program takes besides: a block in every form on its way, what zstd knows of it, buffers of files.
+const WORK: u64 = 8 << 20;
+
+/// Sees whether the system would give so many bytes for something, and leave enough for all that is small. They are given back at
+/// once: whoever asks takes them next.
 ///
 /// # Errors
 /// If it would not.
 pub fn room_for(bytes: u64, what: &str) -> anyhow::Result<()> {
-    let mut room: Vec<u8> = vec![];
-    let reserved = usize::try_from(bytes).ok().and_then(|bytes| room.try_reserve_exact(bytes).ok());
-    if std::hint::black_box(reserved).is_none() {
+    if !is_room(bytes.saturating_add(WORK)) {
         bail!("not enough memory: {what} takes {}", Bytes(bytes));
     }
     Ok(())
+}
+
+/// Sees whether there is room for any work at all. Each small thing would be an abort of its own where the system refuses it.
+///
+/// # Errors
+/// If there is not.
+pub(super) fn room_to_begin() -> anyhow::Result<()> {
+    if !is_room_for_work() {
+        bail!("not enough memory to begin with: {} more are needed", Bytes(WORK));
+    }
+    Ok(())
+}
+
+/// Sees whether what is small would find its place still.
+pub(super) fn is_room_for_work() -> bool {
+    is_room(WORK)
+}
+
+fn is_room(bytes: u64) -> bool {
+    let mut room: Vec<u8> = vec![];
+    let reserved = usize::try_from(bytes).ok().and_then(|bytes| room.try_reserve_exact(bytes).ok());
+    std::hint::black_box(reserved).is_some()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A program from its command line to its exit code, in a process of its own or in a test.
 
 use super::generate::{generate, generate_argument};
+use super::memory::room_to_begin;
 use super::outcome::Outcome;
 use super::{EXIT_CODES, LONG_VERSION, PROGRAM, Typed, VERSION, claims, signals, typed};
 use clap::{Arg, ArgMatches, Command, CommandFactory, FromArgMatches};
@@ -65,6 +66,9 @@ impl<A> Program<A> {
     /// Runs it as a process: with the arguments of the process, and its outcome told to whoever started it.
     pub fn main(self, run: impl FnOnce(A, &Typed) -> anyhow::Result<()>) -> ExitCode {
         let _ = PROGRAM.set(self.name.to_owned());
+        if let Err(error) = room_to_begin() {
+            return Outcome::of(Err(error)).tell();
+        }
         signals::watch();
         self.run(std::env::args_os().skip(1), run).tell()
     }
