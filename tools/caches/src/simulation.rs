@@ -67,7 +67,7 @@ pub struct Simulation {
     batch: u64,
     warm_up: bool,
     results: Option<ResultTraffic>,
-    /// Pages of records fetched without a cache.
+    /// Pages of records fetched without a cache, if there is a row of none.
     record_pages: Option<PageSwitches>,
     record_banks: Option<Banks>,
     queries: u64,
@@ -136,14 +136,15 @@ impl Simulation {
         // Blocks are counted by the usual pages, whatever the lines.
         let shifts = groups.iter().map(|group| group.page_shift).chain([PAGE_SHIFT]);
         let of_addresses = regions.iter().any(Region::is_addresses);
+        let uncached = configs.iter().any(|config| !config.keeps_lines());
         let places = shifts.filter(|_| of_addresses).map(|shift| (shift, Places::new(shift))).collect();
         Ok(Self {
             regions: regions.to_vec(),
             groups,
             configs,
             asked,
-            record_pages: measures.page_bytes.map(PageSwitches::new),
-            record_banks: measures.dram.map(Banks::new),
+            record_pages: measures.page_bytes.filter(|_| uncached).map(PageSwitches::new),
+            record_banks: measures.dram.filter(|_| uncached).map(Banks::new),
             results: measures.results.map(ResultTraffic::new),
             measures: measures.clone(),
             waiting: AccessBuffer::new(chunk.max(1)),

@@ -90,18 +90,35 @@ impl WorkingSetCounter {
         if self.search.number == 0 {
             return;
         }
-        for (&offset, &shape) in accesses.offsets[range.clone()].iter().zip(&accesses.shapes[range]) {
-            let (first, end) = space.ends(offset, shape);
-            for slot in first..=end {
-                let last = &mut self.last[slot as usize];
-                if last[0] != self.search.number {
-                    last[0] = self.search.number;
-                    self.search.lines += 1;
-                    self.batch.lines += u32::from(last[1] != self.batch.number);
-                    last[1] = self.batch.number;
-                }
+        let records = accesses.offsets[range.clone()].iter().zip(&accesses.shapes[range]);
+        match accesses.common {
+            Some(shape) => {
+                let ends = space.ends_of(shape);
+                records.for_each(|(&offset, _)| self.touch_lines(ends(offset)));
             }
+            None => records.for_each(|(&offset, &shape)| self.touch_lines(space.ends(offset, shape))),
         }
+    }
+
+    /// A record from the one line to the other is read.
+    #[inline(always)]
+    fn touch_lines(&mut self, (first, end): (u32, u32)) {
+        self.touch_line(first);
+        // Most records lie in one line, or in two: the same line twice counts once.
+        self.touch_line(end);
+        if end > first + 1 {
+            (first + 1..end).for_each(|slot| self.touch_line(slot));
+        }
+    }
+
+    /// Whether a search comes back to a line depends on the data, so it is arithmetic and not a branch. A line that the search
+    /// has touched, its batch has touched too.
+    #[inline(always)]
+    fn touch_line(&mut self, slot: u32) {
+        let last = &mut self.last[slot as usize];
+        self.search.lines += u32::from(last[0] != self.search.number);
+        self.batch.lines += u32::from(last[1] != self.batch.number);
+        *last = [self.search.number, self.batch.number];
     }
 
     fn end_search(&mut self) {

@@ -72,20 +72,24 @@ impl Places {
         self.pieces.clear();
         let all = if span == SpanRule::First { 0 } else { u64::MAX };
         let mut longest = 0;
-        for (i, (&offset, shape)) in accesses.offsets.iter().zip(accesses.shapes).enumerate() {
+        // Out of the way of the table, so that where they lie is known for the whole pass.
+        let (mut firsts, mut lasts) = (std::mem::take(&mut self.firsts), std::mem::take(&mut self.lasts));
+        let taken = firsts.iter_mut().zip(&mut lasts);
+        for ((&offset, shape), (to_first, to_last)) in accesses.offsets.iter().zip(accesses.shapes).zip(taken) {
             let first = u64::from(self.place(offset >> shift)) << shift | (offset & low);
             let more = u64::from(shape.len().max(1) - 1);
-            self.firsts[i] = first;
-            self.lasts[i] = first + (more & all);
+            *to_first = first;
+            *to_last = first + (more & all);
             if (offset & low) + more > low {
                 longest = longest.max(more);
                 let last = offset.checked_add(more).expect("an access outside of its region: beyond the last address");
                 let place = u64::from(self.place(last >> shift));
                 if span != SpanRule::First {
-                    self.lasts[i] = place << shift | (last & low);
+                    *to_last = place << shift | (last & low);
                 }
             }
         }
+        (self.firsts, self.lasts) = (firsts, lasts);
         // Further pages than two have to be there too.
         if longest > low {
             self.cut(accesses, span);

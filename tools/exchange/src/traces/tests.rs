@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use std::io::{Cursor, Write as _};
 
 mod columns;
+mod in_drips;
 mod misread;
 mod packed;
 

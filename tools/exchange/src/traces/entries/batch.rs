@@ -2,7 +2,7 @@
 
 use super::{Entries, LONGEST_ACCESS};
 use crate::traces::Numbered;
-use std::io::BufRead;
+use std::io::{BufRead, ErrorKind};
 
 /// Entries read at once: few enough for them and what they say to stay in a core's own cache.
 const BATCH: usize = 2048;
@@ -31,12 +31,31 @@ impl<R: BufRead> Entries<R> {
         self.wrong(what)
     }
 
-    /// Records for a batch, false if there are none left.
+    /// Records for a batch, false if there are none left. They are read where they lie in the input's buffer; only one that
+    /// goes on beyond it is copied.
     fn records(&mut self, bytes: usize, batch: &mut Vec<Numbered>) -> anyhow::Result<bool> {
-        let got = self.fill(bytes * BATCH)?;
-        let (first, whole) = (self.number + 1, got / bytes * bytes);
-        self.number += (got / bytes) as u64;
-        let outcome = self.parser.parse_records(&self.entry[..whole], bytes, first, batch);
+        let buffered = self.buffered()?;
+        let first = self.number + 1;
+        let outcome = if buffered < bytes {
+            let got = self.fill(bytes)?;
+            if got == 0 {
+                self.ended()?;
+                return Ok(false);
+            }
+            if got < bytes {
+                let what = format!("the input ends after {got} of its {bytes} bytes");
+                return Err(self.wrong_at(first, &what));
+            }
+            self.number += 1;
+            self.parser.parse_records(&self.entry, bytes, first, batch)
+        } else {
+            let records = (buffered / bytes).min(BATCH);
+            self.number += records as u64;
+            let here = &self.input.fill_buf()?[..records * bytes];
+            let outcome = self.parser.parse_records(here, bytes, first, batch);
+            self.input.consume(records * bytes);
+            outcome
+        };
         if self.lengths {
             let long = |entry: &&Numbered| entry.reference.len.is_some_and(|len| len > LONGEST_ACCESS);
             if let Some(&Numbered { number, reference }) = batch.iter().find(long) {
@@ -45,13 +64,17 @@ impl<R: BufRead> Entries<R> {
             }
         }
         outcome.map_err(|(number, what)| self.wrong_at(number, &what))?;
-        if whole < got {
-            let what = format!("the input ends after {} of its {bytes} bytes", got - whole);
-            return Err(self.wrong_at(self.number + 1, &what));
+        Ok(true)
+    }
+
+    /// How many bytes of the input can be looked at where they are; none at its end.
+    fn buffered(&mut self) -> anyhow::Result<usize> {
+        loop {
+            match self.input.fill_buf() {
+                Ok(bytes) => return Ok(bytes.len()),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error.into()),
+            }
         }
-        if got == 0 {
-            self.ended()?;
-        }
-        Ok(got > 0)
     }
 }
