@@ -10,6 +10,7 @@ mod cli;
 mod columns;
 mod curves;
 mod damage;
+mod dram;
 mod estimates;
 mod files;
 mod foreign;
