@@ -88,7 +88,7 @@ pub struct Args {
     pub(super) lanes_from: LaneSource,
     #[command(flatten)]
     pub(super) foreign: ForeignArgs,
-    /// Columns of a CSV file: address, size, kind, and _ for one to skip, or names of its own, such as address=lbn,size=len
+    /// Columns of a CSV file: address (or key, any text), size, kind, and _ for one to skip, or names of its own, such as address=lbn,size=len
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_short_help = true)]
     pub(super) columns: Option<Vec<String>>,
     /// How to print the result

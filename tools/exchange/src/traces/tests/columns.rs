@@ -35,6 +35,28 @@ fn a_first_line_may_name_the_address_otherwise() {
 }
 
 #[test]
+fn keys_are_addresses_of_their_own() {
+    let addresses = |text: &str, asked: &str| -> Vec<(u64, u32)> {
+        let (format, all) = read(text.as_bytes(), &columns(asked)).unwrap();
+        assert_eq!(format, "csv");
+        all.into_iter().map(|access| (access.1, access.2)).collect()
+    };
+    // By role and name; by place, under a line of names and without one, though no field begins with a digit.
+    let named = addresses("time,url,size\n1,/a.png,40\n2,\"b c\",50\n3,/a.png,60\n", "key=url");
+    let placed = addresses("/a.png,40\nb c,50\n/a.png,60\n", "key,size");
+    assert_eq!(named, placed);
+    assert_eq!(addresses("key,size\n/a.png,40\nb c,50\n/a.png,60\n", "key,size"), placed);
+    assert_eq!(placed.iter().map(|access| access.1).collect::<Vec<_>>(), [40, 50, 60]);
+    assert!(placed[0].0 == placed[2].0 && placed[0].0 != placed[1].0, "{placed:?}");
+    assert_eq!(addresses("b c\n", "key")[0].0, placed[1].0);
+    // A number is a key like any other, not that address; zeros in front make another.
+    let numbers = addresses("7\n07\n7\n", "key");
+    assert!(numbers[0] == numbers[2] && numbers[0] != numbers[1] && numbers[0].0 != 7, "{numbers:?}");
+    // The low half of XXH3-128 of "a", halved, and the page there: what others can compute.
+    assert_eq!(addresses("a\n", "key")[0].0, (0xe6c6_32b6_1e96_4e1f >> 1) / 4096 * 4096);
+}
+
+#[test]
 fn columns_that_make_no_sense_are_refused() {
     for (asked, said) in [
         ("size", "must be address"),
@@ -43,6 +65,8 @@ fn columns_that_make_no_sense_are_refused() {
         ("address=a,address=b", "twice"),
         ("a,b", "address=NAME"),
         ("where=a", "address=lbn"),
+        ("key,address", "twice"),
+        ("key=a,b", "`b` is none of"),
     ] {
         let fault = read(b"a,b\n1,2\n", &columns(asked)).unwrap_err();
         assert!(fault.starts_with("not damage: --columns: ") && fault.contains(said), "{asked}: {fault}");
