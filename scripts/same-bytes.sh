@@ -21,7 +21,7 @@ write() { # threads
     pm-reorder -q hilbert --per batch tiled.pmq -o tiled-hilbert.pmq
     pm-reorder -q random q.pmq -o random.pmq
     pm-sample -q --every 500 --window 50 q.pmq -o windows.pmq
-    for map in kd wide vvh block-hash; do
+    for map in kd bucket-kd wide vvh block-hash; do
         pm-gather -q map.pmp q.pmq --map $map -k 20 -t "$t" -o $map.pmt
         pm-gather -q map.pmp hilbert.pmq --map $map -k 20 -t "$t" --no-trace --base base.exr --image $map.exr
     done

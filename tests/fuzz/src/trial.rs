@@ -3,13 +3,15 @@
 use cap::Cap;
 use pm_fuzz::{Mutator, Target, root, seeds};
 use std::alloc::System;
+use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::os::unix::fs::FileExt as _;
-use std::panic::catch_unwind;
+use std::panic::{catch_unwind, set_hook, take_hook};
 use std::path::Path;
 use std::process::abort;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -21,8 +23,11 @@ static MEMORY: Cap<System> = Cap::new(System, MOST_MEMORY);
 const PATIENCE: Duration = Duration::from_secs(1);
 /// More memory than this no input may take, in bytes: a block of the largest size and its records in every form on their way.
 const MOST_MEMORY: usize = 1 << 29;
-/// Finds of a target after which it is left.
+/// Finds of a target, each at another place, after which it is left.
 const ENOUGH: usize = 10;
+
+/// Was the last panic at a place where there was none before?
+static IS_NEW: AtomicBool = AtomicBool::new(false);
 
 /// Executions so far.
 static EXECUTIONS: AtomicU64 = AtomicU64::new(0);
@@ -32,6 +37,7 @@ pub(super) fn run(target: &Target, seconds: u64, seed: u64, last: &str) -> bool 
     let seeds = seeds(target.name);
     let file = File::create(last).expect("a file of ours");
     thread::spawn(watch);
+    tell_each_place_once();
     let (begin, mut finds, mut slowest) = (Instant::now(), 0, Duration::ZERO);
     let mut kept = seeds.iter();
     let mut mutator = Mutator::new(seed);
@@ -44,7 +50,7 @@ pub(super) fn run(target: &Target, seconds: u64, seed: u64, last: &str) -> bool 
         let took = start.elapsed();
         EXECUTIONS.fetch_add(1, Ordering::Relaxed);
         slowest = slowest.max(took);
-        if outcome.is_err() || took > PATIENCE {
+        if (outcome.is_err() && IS_NEW.load(Ordering::Relaxed)) || took > PATIENCE {
             finds += 1;
             tell(&format!("{}: {:.3} s", target.name, took.as_secs_f64()));
             keep(target.name, &data);
@@ -60,6 +66,19 @@ pub(super) fn run(target: &Target, seconds: u64, seed: u64, last: &str) -> bool 
     );
     let _ = writeln!(std::io::stdout(), "{line}");
     finds > 0
+}
+
+/// A panic at a place where there was one before is nothing new.
+fn tell_each_place_once() {
+    let (usual, known) = (take_hook(), Mutex::new(HashSet::new()));
+    set_hook(Box::new(move |panic| {
+        let place = panic.location().map_or_else(String::new, ToString::to_string);
+        let is_new = known.lock().is_ok_and(|mut known| known.insert(place));
+        if is_new {
+            usual(panic);
+        }
+        IS_NEW.store(is_new, Ordering::Relaxed);
+    }));
 }
 
 /// Ends the process if an input takes all too long.

@@ -83,6 +83,11 @@ pub(super) fn trace(part: Option<&str>) -> Vec<u8> {
     let regions = lay_out([
         ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7, reread: true }),
         ("list".to_owned(), 4096, 16, Coding::Records),
+        ("inner".to_owned(), 4 * 8, 8, Coding::LeavesApart { leaves: 5 }),
+        ("leaves".to_owned(), 5 * 64, 64, Coding::Records),
+        ("first".to_owned(), 1000, 4, Coding::InTurns),
+        ("second".to_owned(), 1000, 20, Coding::InTurns),
+        ("third".to_owned(), 1000, 128, Coding::InTurns),
     ]);
     let header = Header { regions, ..header(part) };
     let mut writer = TraceWriter::new(vec![], &header).expect("a header");
@@ -93,6 +98,9 @@ pub(super) fn trace(part: Option<&str>) -> Vec<u8> {
             encoder.records(0, &[0, 1, 3, 4]);
             encoder.records(1, &[pixel * 4, 9]);
             encoder.access(Access::read(1, 77, 5));
+            [(2, 0), (2, 1), (2, 3), (3, 3), (3, 4), (4, 200), (6, 3), (4, 201)]
+                .iter()
+                .for_each(|&(region, record)| encoder.records(region, &[record]));
             encoder.end();
         }
         let (block, tally) = encoder.finish(BlockMeta { batch, ..BlockMeta::default() }).expect("a block");

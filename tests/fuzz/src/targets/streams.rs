@@ -1,20 +1,26 @@
 //! Streams of any kind, by every reader there is.
 
 use super::mend;
-use pm_formats::trace::{Access, TraceReader, TraceSink, TraceWriter};
+use pm_formats::trace::{Access, Region, TraceReader, TraceSink, TraceWriter};
 use pm_formats::{
     BlockReader, Photon, Query, Record, RecordReader, Section, StreamKind, UnroundedPhoton, as_commands,
     decode_irradiance, decode_weights,
 };
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Takes all accesses for one number.
+/// Takes all accesses for one number, and sees that each lies in its region, if it is told of those.
 #[derive(Default)]
-pub(super) struct Sum(u64);
+pub(super) struct Sum {
+    sum: u64,
+    regions: Vec<Region>,
+}
 
 impl TraceSink for Sum {
     fn access(&mut self, access: Access) {
-        self.0 = self.0.rotate_left(5).wrapping_add(access.offset ^ u64::from(access.len) ^ u64::from(access.region));
+        let Access { region, offset, len, .. } = access;
+        let within = self.regions.is_empty() || self.regions[usize::from(region)].holds(offset, len);
+        assert!(within, "{len} bytes at {offset} of region {region} are beyond it");
+        self.sum = self.sum.rotate_left(5).wrapping_add(offset ^ u64::from(len) ^ u64::from(region));
     }
 }
 
@@ -79,7 +85,7 @@ fn beside(data: &[u8]) {
 
 fn trace(data: &[u8]) -> bool {
     let Ok(mut reader) = TraceReader::new(data) else { return false };
-    let mut sum = Sum::default();
+    let mut sum = Sum { regions: reader.header().regions.clone(), ..Sum::default() };
     let whole = loop {
         match reader.replay_block(&mut sum) {
             Ok(Some(_)) => {}
@@ -92,7 +98,7 @@ fn trace(data: &[u8]) -> bool {
     }
     // What is whole can be kept, and is the same; that takes a hundred times as long, so not each is.
     if xxh3_64(data).is_multiple_of(64) {
-        assert_eq!(archived(data), sum.0, "an archive holds other searches");
+        assert_eq!(archived(data), sum.sum, "an archive holds other searches");
     }
     true
 }
@@ -109,5 +115,5 @@ fn archived(data: &[u8]) -> u64 {
     let mut again = TraceReader::new(&kept[..]).expect("an archive is a stream");
     let mut sum = Sum::default();
     while again.replay_block(&mut sum).expect("an archive is whole").is_some() {}
-    sum.0
+    sum.sum
 }

@@ -3,6 +3,7 @@
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::LazyLock;
 
 #[cfg(test)]
 mod tests;
@@ -48,31 +49,30 @@ fn byte(byte: u8) -> u16 {
     u16::from(byte) * 257
 }
 
+/// By the number of 16 bits in an sRGB file, the light: the curve of IEC 61966-2-1. All textures have one, as it takes longer than
+/// to read a small one.
+static LINEAR: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let decode = |i: u16| {
+        let x = f64::from(i) / 65535.0;
+        if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
+    };
+    (0..=u16::MAX).map(decode).collect()
+});
+
 /// Sums of texels, made linear.
+#[derive(Default)]
 struct Sum {
-    /// By the number of 16 bits in an sRGB file, the light.
-    linear: Vec<f64>,
     light: [f64; 3],
     alpha: f64,
-}
-
-impl Default for Sum {
-    fn default() -> Self {
-        // The curve of IEC 61966-2-1.
-        let decode = |i: u16| {
-            let x = f64::from(i) / 65535.0;
-            if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
-        };
-        Self { linear: (0..=u16::MAX).map(decode).collect(), light: [0.0; 3], alpha: 0.0 }
-    }
 }
 
 impl Sum {
     /// Adds texels of so many channels: grey or colour, perhaps with an alpha.
     fn add<T: Copy>(&mut self, samples: &[T], channels: usize, scale: impl Fn(T) -> u16) {
+        let linear = &**LINEAR;
         for texel in samples.chunks_exact(channels) {
             let alpha = if channels.is_multiple_of(2) { f64::from(scale(texel[channels - 1])) / 65535.0 } else { 1.0 };
-            let light = |c: usize| self.linear[usize::from(scale(texel[if channels < 3 { 0 } else { c }]))];
+            let light = |c: usize| linear[usize::from(scale(texel[if channels < 3 { 0 } else { c }]))];
             self.add_texel([0, 1, 2].map(light), alpha);
         }
     }
