@@ -2,7 +2,7 @@
 
 use crate::Recipe;
 use crate::model::{Model, Parts};
-use crate::survey::{KS, RAYS};
+use crate::survey::{DESIGNS, KS};
 
 /// A recipe with what it gives and takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,8 +59,7 @@ pub fn nearest_in(model: &Model, pixels: f64, cost: f64, caustics: u64) -> Optio
 fn skeletons(caustics: u64) -> impl Iterator<Item = Recipe> {
     let photons = levels(PHOTONS[0], PHOTONS[1]);
     let of_caustics = if caustics == 0 { vec![0] } else { levels(CAUSTICS.min(caustics), caustics) };
-    let rest = RAYS.into_iter().flat_map(|gathers| RAYS.map(|light_samples| (gathers, light_samples)));
-    rest.flat_map(move |(gathers, light_samples)| {
+    DESIGNS.into_iter().flat_map(move |[gathers, light_samples]| {
         let of_caustics = of_caustics.clone();
         let maps = photons.clone().into_iter().flat_map(|photons| KS[PLANNED].iter().map(move |&k| (photons, k)));
         maps.flat_map(move |(photons, k)| {

@@ -15,20 +15,25 @@
 //! | modules | are about |
 //! | --- | --- |
 //! | `estimate`, `replicates` | means over pixels with their intervals; squares without the noise of what is squared |
+//! | `lots` | noise of photons from many small maps, and how much it differs from map to map |
 //! | `law` | bias as a power of the search area, extrapolated to none |
 //! | `recipe`, `times` | what is chosen among, and what it costs |
-//! | `pixels`, `rays`, `traced`, `answers` | pilots: which pixels, rays through them, photons, radiance |
+//! | `preview`, `pixels`, `rays`, `traced`, `answers` | pilots: which pixels, rays through them, photons, radiance |
 //! | `survey`, `trial` | all parts measured for many recipes; one recipe measured as a whole |
+//! | `evidence` | what all trials together say |
 //! | `task` | what is to be planned |
 //! | `model`, `choice`, `planning` | the error of any recipe; the cheapest that will do; all of it together |
 
 mod answers;
 mod choice;
 mod estimate;
+mod evidence;
 mod law;
+mod lots;
 mod model;
 mod pixels;
 mod planning;
+mod preview;
 mod rays;
 mod recipe;
 mod replicates;

@@ -1,10 +1,11 @@
 //! The error of any recipe, by what was measured of some.
 
 use crate::estimate::Estimate;
-use crate::survey::{KS, PILOT, RAYS, Survey, seen_by};
+use crate::survey::{KS, LOTS, Layer, PILOT, Survey, nth_design, seen_by};
 use crate::{Recipe, Times};
+use pm_sampling::Spread;
 
-/// The square of an error, in parts.
+/// The square of the error of a run, in parts; their spreads are of what is not known, and of what differs from run to run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts {
     /// Noise of eye, shadow and gather rays.
@@ -50,17 +51,9 @@ impl Model {
     /// The square of the error of a recipe, whose neighbours, gather and shadow rays are among those measured.
     #[must_use]
     pub fn predict(&self, recipe: &Recipe) -> Parts {
-        let Survey { soft, caustics, light, gathered, both, power, .. } = &self.survey;
-        let k = KS.iter().position(|&k| k == recipe.k).unwrap_or(0);
-        let number = |rays: u32| RAYS.iter().position(|&known| known == rays).unwrap_or(1);
-        // The graininess of few neighbours, for each gather ray anew.
-        let grain = (soft.rays[k].value - soft.rays[1].value) * f64::from(PILOT.gathers) / f64::from(recipe.gathers);
-        let (light, gathered) = (light[number(recipe.light_samples)], gathered[number(recipe.gathers)]);
-        let fewer = libm::pow(f64::from(PILOT.samples) / f64::from(recipe.samples), *power);
-        let value =
-            (light.value + gathered.value + 2.0 * both.value + grain).max(light.value.max(gathered.value) * 0.5);
-        let spread = light.plus(gathered).spread;
-        let mut rays = Estimate { value, spread }.scaled(fewer);
+        let Survey { soft, caustics, .. } = &self.survey;
+        let k = nth(&KS, recipe.k).unwrap_or(0);
+        let mut rays = self.rays(recipe, k);
         let mut photons = soft.photons[k].scaled(1.0 / recipe.photons as f64);
         let mut bias = soft.bias.at(recipe.share());
         if let (Some(layer), 1..) = (caustics, recipe.caustics) {
@@ -68,6 +61,7 @@ impl Model {
             photons = photons.plus(layer.photons[0].scaled(1.0 / recipe.caustics as f64));
             bias = bias.plus(layer.bias.at(f64::from(Times::CAUSTICS_K) / recipe.caustics as f64));
         }
+        photons.spread = photons.spread.plus(self.lumps(recipe));
         let positive = |estimate: Estimate| Estimate { value: estimate.value.max(0.0), ..estimate };
         Parts {
             rays: positive(rays).scaled(self.noise),
@@ -75,4 +69,43 @@ impl Model {
             bias: bias.scaled(self.bias),
         }
     }
+
+    /// Noise of eye, shadow and gather rays.
+    fn rays(&self, recipe: &Recipe, k: usize) -> Estimate {
+        let Survey { soft, rays, edges, .. } = &self.survey;
+        let measured = rays[nth_design(recipe.gathers, recipe.light_samples)];
+        let edges = edges.min(0.95 * measured.value);
+        // The graininess of few neighbours, for each gather ray anew.
+        let grain = (soft.rays[k].value - soft.rays[1].value) * f64::from(PILOT.gathers) / f64::from(recipe.gathers);
+        let fewer = f64::from(PILOT.samples) / f64::from(recipe.samples);
+        let plain = (measured.value - edges + grain).max(0.5 * (measured.value - edges));
+        let value = plain * fewer + edges * fewer * libm::sqrt(fewer);
+        let scale = if measured.value > 0.0 { value / measured.value } else { fewer };
+        Estimate { value, spread: self.of_a_run(measured.spread).scaled(scale) }
+    }
+
+    /// How much the noise of photons differs from run to run.
+    pub(crate) fn lumps(&self, recipe: &Recipe) -> Spread {
+        let of = |layer: &Layer, k: usize, photons: u64| {
+            let value = layer.photons[k].value / photons as f64;
+            Spread { variance: value * value * layer.lumps[k], freedom: OF_LUMPS }
+        };
+        let soft = of(&self.survey.soft, nth(&KS, recipe.k).unwrap_or(0), recipe.photons);
+        match &self.survey.caustics {
+            Some(layer) if recipe.caustics > 0 => soft.plus(of(layer, 0, recipe.caustics)),
+            _ => soft,
+        }
+    }
+
+    /// The spread of a mean over the pixels that were looked at, and of that over all of them, which differ from run to run.
+    fn of_a_run(&self, looked_at: Spread) -> Spread {
+        Spread { variance: looked_at.variance * (1.0 + self.survey.share), ..looked_at }
+    }
+}
+
+/// Degrees of freedom of what is known of lumps: those of as many maps as there are lots.
+const OF_LUMPS: f64 = (2 * LOTS - 1) as f64;
+
+fn nth(known: &[u32], wanted: u32) -> Option<usize> {
+    known.iter().position(|&one| one == wanted)
 }

@@ -2,7 +2,10 @@
 
 use crate::choice::{Choice, Rival, choose};
 use crate::estimate::Estimate;
+use crate::evidence::Evidence;
 use crate::model::{Model, Parts};
+use crate::preview::Preview;
+use crate::recipe::Recipe;
 use crate::survey::{Effort, Survey};
 use crate::task::{PlanError, Task};
 use crate::trial::Trial;
@@ -19,12 +22,19 @@ pub struct Wanted {
     pub effort: Effort,
 }
 
+impl Wanted {
+    /// The chance that is planned with: of several recipes that are tried, the one with the best luck is taken.
+    fn surer(&self) -> f64 {
+        1.0 - (1.0 - self.confidence) / LOOKS
+    }
+}
+
 /// A plan.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// What was chosen, with its error as predicted.
     pub choice: Choice,
-    /// The square of its error, as tried.
+    /// The square of the error that a run will have, by all trials together.
     pub error: Estimate,
     /// The same in parts.
     pub parts: Parts,
@@ -45,18 +55,21 @@ pub struct Plan {
 pub struct Tried {
     /// What was chosen, with its error as predicted.
     pub choice: Choice,
-    /// The square of its error, as tried.
+    /// The square of its error, as this trial found it.
     pub error: Estimate,
-    /// Does it do, even at the upper bound?
-    pub holds: bool,
 }
 
 /// Trials at most.
 const TRIALS: u32 = 6;
-/// Share of a large picture's pixels that a trial makes, each twice.
-const SHARE_TRIED: f64 = 0.008;
-/// By what share the bound may stay below what is wanted: less is not worth another trial.
-const NEAR: f64 = 0.9;
+/// Recipes that are much alike are tried until one will do: about so many times luck has a chance.
+const LOOKS: f64 = 3.0;
+/// What would cost more than this share of what will do is not tried.
+const LITTLE: f64 = 0.8;
+/// Where half the trials have not found what will do, each of the others asks for so much less error.
+const STRICTER: f64 = 0.97;
+/// Pixels that a trial makes, each twice: times those of a survey, and as a share of a large picture's.
+const MORE_TRIED: u32 = 4;
+const SHARE_TRIED: f64 = 0.004;
 /// Photons are traced for a survey at most.
 const MOST_SURVEYED: u64 = 2_560_000;
 /// Share of a render that a larger survey may take.
@@ -68,14 +81,15 @@ const WORTH: f64 = 0.03;
 /// If nothing is seen or lit.
 pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, PlanError> {
     let start = (task.clock)();
+    let preview = Preview::of(task);
     let mut effort = wanted.effort;
     let (mut model, mut best);
     loop {
         let before = (task.clock)();
-        model = Model::new(Survey::measure(task, effort)?);
+        model = Model::new(Survey::measure(task, &preview, effort)?);
         let took = (task.clock)() - before;
         // The interval a trial will have, by and large: that of so many pixels.
-        let margin = student_quantile(2.0 * wanted.confidence - 1.0, f64::from(effort.pixels) / 4.0);
+        let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
         best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
         // Extrapolated far beyond the largest map: a larger one is traced if that is cheap beside what is planned.
         let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
@@ -85,45 +99,45 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
         }
         effort.photons *= 4;
     }
-    let mut tried: Option<Plan> = None;
-    let mut trials = vec![];
-    let (surveyed, mut lessons) = (model.clone(), Lessons::default());
+    let does = |error: &Estimate| error.upper(wanted.surer()) <= wanted.error * wanted.error;
+    let mut evidence = Evidence::new(model);
+    let mut trials: Vec<Tried> = vec![];
     for trial in 1..=TRIALS {
         let Some(&choice) = best.first() else { break };
-        let found = Trial::run(task, &model, &choice.recipe, pixels_of_trials(task, wanted.effort), u64::from(trial))?;
-        let predicted = model.predict(&choice.recipe);
-        lessons.add(&surveyed.predict(&choice.recipe), &found);
-        lessons.teach(&mut model);
-        // What all trials together say counts too: the least of several is too good to be true.
-        let bound = found.total.upper(wanted.confidence).max(model.predict(&choice.recipe).total().value);
-        let goal = wanted.error * wanted.error;
-        let plan = Plan {
-            choice,
-            error: found.total,
-            parts: found.parts(&predicted),
-            holds: bound <= goal,
-            rival: rival(&best),
-            model: model.clone(),
-            trials: vec![],
-            seconds: (task.clock)() - start,
+        let pixels = pixels_of_trials(task, wanted.effort);
+        let found = Trial::run(task, &preview, &evidence.model(), &choice.recipe, pixels, u64::from(trial))?;
+        trials.push(Tried { choice, error: found.total });
+        evidence.add(&choice.recipe, found);
+        let tried = |next: &Choice| trials.iter().any(|tried| tried.choice.recipe == next.recipe);
+        let strict = libm::pow(STRICTER, f64::from(trial.saturating_sub(TRIALS / 2)));
+        best = chosen_again(task, &Wanted { error: wanted.error * strict, ..*wanted }, &evidence, &choice.recipe);
+        best.retain(|next| !tried(next) || does(&evidence.judge(&next.recipe)));
+        // What would be tried next has been, or saves little beside what will do: there is no more to learn that is worth it.
+        let dear = |next: &Choice| {
+            let mut doing = trials.iter().filter(|tried| does(&evidence.judge(&tried.choice.recipe)));
+            doing.any(|tried| next.cost > LITTLE * tried.choice.cost)
         };
-        trials.push(Tried { choice, error: plan.error, holds: plan.holds });
-        let better = tried
-            .as_ref()
-            .is_none_or(|old| if plan.holds { !old.holds || plan.choice.cost < old.choice.cost } else { !old.holds });
-        let done = plan.holds && bound >= goal * NEAR * NEAR;
-        if better {
-            tried = Some(plan);
-        }
-        if done {
+        if best.first().is_some_and(|next| tried(next) || dear(next)) {
             break;
         }
-        let relative = libm::sqrt(found.total.spread.variance) / found.total.value.max(f64::MIN_POSITIVE);
-        best = chosen_again(task, wanted, &model, relative);
     }
-    let seconds = (task.clock)() - start;
-    Ok(match tried {
-        Some(plan) => Ok(Plan { model, seconds, trials, ..plan }),
+    let (model, seconds) = (evidence.model(), (task.clock)() - start);
+    let judged = |tried: &Tried| (tried.choice, evidence.judge(&tried.choice.recipe));
+    let mut tried: Vec<(Choice, Estimate)> = trials.iter().map(judged).collect();
+    // The cheapest of those that will do; else the one with the least error.
+    tried.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
+    let least = tried.iter().min_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    Ok(match tried.iter().find(|(_, error)| does(error)).or(least) {
+        Some(&(choice, error)) => Ok(Plan {
+            choice,
+            error,
+            parts: model.predict(&choice.recipe),
+            holds: does(&error),
+            rival: rival(&best, &choice.recipe),
+            model,
+            trials,
+            seconds,
+        }),
         None => Err(model),
     })
 }
@@ -132,49 +146,18 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
 fn pixels_of_trials(task: &Task<'_>, effort: Effort) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small share of the pixels")]
     let share = (task.pixels() * SHARE_TRIED) as u32;
-    effort.pixels.max(share)
+    (MORE_TRIED * effort.pixels).max(share)
 }
 
-/// The choice with the relative spread that trials have, not that of surveys.
-fn chosen_again(task: &Task<'_>, wanted: &Wanted, model: &Model, relative: f64) -> Vec<Choice> {
-    let z = student_quantile(2.0 * wanted.confidence - 1.0, f64::from(wanted.effort.pixels) / 4.0);
-    let error = wanted.error / libm::sqrt(1.0 + z * relative);
-    choose(model, task.pixels(), error, 0.0, task.caustics)
-}
-
-/// What trials found of what a survey predicted, as shares of it.
-#[derive(Default)]
-struct Lessons {
-    noise: Vec<f64>,
-    bias: Vec<f64>,
-}
-
-impl Lessons {
-    fn add(&mut self, predicted: &Parts, found: &Trial) {
-        let noise = predicted.rays.value + predicted.photons.value;
-        if noise > 0.0 && found.noise.value > 0.0 {
-            self.noise.push((found.noise.value / noise).clamp(0.2, 10.0));
-        }
-        // Bias is corrected as far as the trial knows it: what is lost in noise corrects nothing.
-        let (bias, doubt) = (predicted.bias.value, libm::sqrt(found.bias.spread.variance));
-        if bias > 0.0 && doubt < bias {
-            self.bias.push((found.bias.value / bias).clamp(0.2, 10.0));
-        }
-    }
-
-    /// Corrects a model by all of them alike.
-    fn teach(&self, model: &mut Model) {
-        let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len() as f64;
-        if !self.noise.is_empty() {
-            model.noise = mean(&self.noise);
-        }
-        if !self.bias.is_empty() {
-            model.bias = mean(&self.bias);
-        }
-    }
+/// The choice with the relative spread that trials leave, not that of surveys.
+fn chosen_again(task: &Task<'_>, wanted: &Wanted, evidence: &Evidence, last: &Recipe) -> Vec<Choice> {
+    let judged = evidence.judge(last);
+    let margin = judged.upper(wanted.surer()) / judged.value.max(f64::MIN_POSITIVE);
+    choose(&evidence.model(), task.pixels(), wanted.error / libm::sqrt(margin.max(1.0)), 0.0, task.caustics)
 }
 
 /// Who came next: another recipe, not the same with other eye rays.
-fn rival(best: &[Choice]) -> Option<Rival> {
-    best.get(1).copied().map(Rival::Dearer)
+fn rival(best: &[Choice], chosen: &Recipe) -> Option<Rival> {
+    let same = |other: &Recipe| Recipe { samples: 0, ..*other } == Recipe { samples: 0, ..*chosen };
+    best.iter().find(|other| !same(&other.recipe)).copied().map(Rival::Dearer)
 }

@@ -19,6 +19,12 @@ impl Weights {
         Self(truth.iter().map(|pixel| pixel.map(|a| 1.0 / (a * a + REL_MSE_EPSILON))).collect())
     }
 
+    /// The same times how many pixels each of them stands for.
+    pub(crate) fn times(mut self, stand_for: &[f64]) -> Self {
+        self.0.iter_mut().zip(stand_for).for_each(|(pixel, factor)| pixel.iter_mut().for_each(|w| *w *= factor));
+        self
+    }
+
     /// The weighted mean of the products of two differences, a1 - a2 and b1 - b2.
     pub(crate) fn product(&self, [a1, a2]: [&Values; 2], [b1, b2]: [&Values; 2]) -> Estimate {
         Estimate::mean(&self.products([a1, a2], [b1, b2]))

@@ -2,18 +2,15 @@
 
 use crate::Recipe;
 use crate::recipe::{CAUSTICS_K, MOST_SEEN};
+use crate::survey::{DESIGNS, nth_design};
 
 /// Seconds of processor time that parts of the work took here, a while ago.
 #[derive(Clone, Debug, Default)]
 pub struct Times {
     /// A photon traced and put into a map.
     pub photon: f64,
-    /// An eye ray, beside what follows.
-    pub eye: f64,
-    /// A shadow ray.
-    pub shadow: f64,
-    /// A gather ray, without its search.
-    pub gather: f64,
+    /// An eye ray with its gather and shadow rays, without searches, for each of [`DESIGNS`].
+    pub rays: [f64; DESIGNS.len()],
     /// A search for so many photons, in a map of [`of`](Self::of).
     pub searches: Vec<(u32, f64)>,
     /// Photons of the map in which searches were measured.
@@ -34,8 +31,8 @@ impl Times {
     pub fn of(&self, recipe: &Recipe, pixels: f64) -> f64 {
         let samples = f64::from(recipe.samples);
         let seen = f64::from(recipe.samples.min(MOST_SEEN));
-        let gather = self.gather + self.search(recipe.k, recipe.photons);
-        let sample = self.eye + f64::from(recipe.light_samples) * self.shadow + f64::from(recipe.gathers) * gather;
+        let rays = self.rays[nth_design(recipe.gathers, recipe.light_samples)];
+        let sample = rays + f64::from(recipe.gathers) * self.search(recipe.k, recipe.photons);
         let caustics = if recipe.caustics == 0 {
             0.0
         } else {
@@ -51,19 +48,6 @@ impl Times {
         known.map_or(0.0, |(_, seconds)| seconds * growth.max(0.2))
     }
 
-    /// Shares the seconds of rays out over eye, shadow and gather rays, where a sample has 1 and 16, 4 and 4, 16 and 1 of the
-    /// latter two.
-    pub(crate) fn share_out(&mut self, seconds: [f64; 3]) {
-        // e + 16 h + g, e + 4 h + 4 g, e + h + 16 g.
-        let [a, b, c] = seconds;
-        // The first less the third: 15 (h - g). Their sum less twice the second: 9 (h + g).
-        let (difference, sum) = ((a - c) / 15.0, (a + c - 2.0 * b) / 9.0);
-        let least = b * 0.02;
-        self.shadow = f64::midpoint(sum, difference).max(least);
-        self.gather = f64::midpoint(sum, -difference).max(least);
-        self.eye = (b - 4.0 * (self.shadow + self.gather)).max(least);
-    }
-
     /// Photons of caustics that are asked for at each point.
     pub(crate) const CAUSTICS_K: u32 = CAUSTICS_K;
 }
@@ -73,22 +57,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seconds_of_rays_are_shared_out() {
-        let (eye, shadow, gather) = (2.0, 0.25, 0.5);
-        let of = |gathers: f64, shadows: f64| eye + shadows * shadow + gathers * gather;
-        let mut times = Times::default();
-        times.share_out([of(1.0, 16.0), of(4.0, 4.0), of(16.0, 1.0)]);
-        assert!((times.eye - eye).abs() < 1e-12 && (times.shadow - shadow).abs() < 1e-12);
-        assert!((times.gather - gather).abs() < 1e-12);
-    }
-
-    #[test]
     fn a_recipe_costs_the_sum_of_its_parts() {
         let times = Times {
             photon: 1e-6,
-            eye: 1e-5,
-            shadow: 1e-6,
-            gather: 2e-6,
+            rays: DESIGNS.map(|[gathers, _]| 1e-5 + 2e-6 * f64::from(gathers)),
             searches: vec![(10, 3e-6), (40, 8e-6)],
             of: 1000,
             growth: 0.1,
@@ -96,8 +68,8 @@ mod tests {
             aiming: 0.5,
             seen: 4e-6,
         };
-        let recipe = Recipe { samples: 25, gathers: 4, light_samples: 2, photons: 1000, k: 12, caustics: 0 };
-        let sample = 1e-5 + 2e-6 + 4.0 * 5e-6;
+        let recipe = Recipe { samples: 25, gathers: 4, light_samples: 1, photons: 1000, k: 12, caustics: 0 };
+        let sample = 1e-5 + 4.0 * 5e-6;
         assert!((times.of(&recipe, 100.0) - (1e-3 + 2500.0 * sample)).abs() < 1e-12);
         let caustics = Recipe { caustics: 2000, ..recipe };
         let more = times.of(&caustics, 100.0) - times.of(&recipe, 100.0);

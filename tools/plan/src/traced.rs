@@ -51,6 +51,18 @@ impl<'a> Traced<'a> {
         let end = self.ends.get(last).copied()?;
         Some(Photons { photons: &self.photons[..end], emitted: last as u64 + 1 })
     }
+
+    /// The photons traced so far dealt out to `lots` maps that have nothing in common: each has as many whole paths, those that
+    /// follow one another.
+    pub(crate) fn lots(&self, lots: usize) -> Vec<Photons<'_>> {
+        let paths = self.ends.len() / lots.max(1);
+        let end_of = |path: usize| if path == 0 { 0 } else { self.ends[path - 1] };
+        let lot = |at: usize| {
+            let photons = &self.photons[end_of(at * paths)..end_of((at + 1) * paths)];
+            Photons { photons, emitted: paths as u64 }
+        };
+        (0..lots).map(lot).collect()
+    }
 }
 
 #[cfg(test)]
@@ -69,5 +81,10 @@ mod tests {
         assert!(all.0 >= 3000 && all.1 > few.1 && few.0.len() >= 500);
         // Flux counts by path: as much for few as for many, give or take chance.
         assert!((all.0 as f64 / all.1 as f64 / (few.0.len() as f64 / few.1 as f64) - 1.0).abs() < 0.2);
+        // Lots share nothing and leave out less than a lot.
+        let lots = many.lots(7);
+        let dealt: Vec<Photon> = lots.iter().flat_map(|lot| lot.photons.to_vec()).collect();
+        assert!(dealt == many.photons[..dealt.len()] && lots.iter().all(|lot| lot.emitted == lots[0].emitted));
+        assert!(many.photons.len() - dealt.len() < 7 * 100 && lots[0].emitted == all.1 / 7);
     }
 }

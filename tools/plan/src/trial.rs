@@ -1,8 +1,9 @@
 //! One recipe measured as a whole, with random numbers that nobody has chosen by.
 
 use crate::answers::{Asking, Map};
-use crate::model::{Model, Parts};
-use crate::pixels::stratified;
+use crate::model::Model;
+use crate::pixels::Pixels;
+use crate::preview::Preview;
 use crate::rays::{Design, cast};
 use crate::recipe::Recipe;
 use crate::replicates::{Values, Weights, mean, sum};
@@ -11,6 +12,7 @@ use crate::task::{PlanError, Task};
 use crate::times::Times;
 use crate::traced::Traced;
 use pm_gathering::Kernel;
+use pm_sampling::Spread;
 
 /// What a trial found.
 pub(crate) struct Trial {
@@ -18,8 +20,10 @@ pub(crate) struct Trial {
     pub(crate) noise: crate::Estimate,
     /// The square of the bias.
     pub(crate) bias: crate::Estimate,
-    /// Noise and bias together, their spread from the same pixels.
+    /// Noise and bias together.
     pub(crate) total: crate::Estimate,
+    /// How much the rays of a whole picture make that differ from run to run.
+    pub(crate) run: Spread,
 }
 
 /// One of two pictures of the same pixels: as the recipe has it, and with as little blur as can be had.
@@ -51,18 +55,19 @@ impl Trial {
     /// Makes some pixels of the picture twice and compares them.
     pub(crate) fn run(
         task: &Task<'_>,
+        preview: &Preview,
         model: &Model,
         recipe: &Recipe,
-        pixels: u32,
+        number: u32,
         round: u64,
     ) -> Result<Self, PlanError> {
-        let pixels = stratified(task.camera.size(), pixels, task.seed_of(6, round));
+        let pixels = Pixels::choose(preview, number, task.seed_of(6, round));
         let (more, finer) = sharper(recipe);
         let soft = |r: u64| -> Result<Replicate, PlanError> {
             let Recipe { samples, gathers, light_samples, .. } = *recipe;
             let design = Design { samples, gathers, light_samples };
             let options = design.soft(task.seed_of(7 + r, round), task.caustics > 0);
-            let set = cast(task.scene, task.camera, &pixels, options);
+            let set = cast(task.scene, task.camera, &pixels.at, options);
             let mut traced = Traced::new(task.scene, task.seed_of(9 + r, round), false);
             let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
             let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
@@ -72,7 +77,8 @@ impl Trial {
             Ok(Replicate { pixels: ask(recipe.photons, recipe.k)?, sharp: ask(more, finer)? })
         };
         let caustics = |r: u64| -> Result<Replicate, PlanError> {
-            let set = cast(task.scene, task.camera, &pixels, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
+            let set =
+                cast(task.scene, task.camera, &pixels.at, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
             let mut traced = Traced::new(task.scene, task.seed_of(13 + r, round), true);
             let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
             let mut ask = |n: u64| -> Result<Values, PlanError> {
@@ -95,11 +101,16 @@ impl Trial {
                 _ => found,
             };
         }
-        Ok(Self::compare(&both))
+        let mut found = Self::compare(&both, &pixels);
+        // What the pixels do not know: two maps are two of many.
+        let seen = found.total.spread;
+        found.total.spread = seen.plus(model.lumps(recipe));
+        found.run = Spread { variance: seen.variance * pixels.len() as f64 / task.pixels(), ..seen };
+        Ok(found)
     }
 
-    fn compare([a, b]: &[Replicate; 2]) -> Self {
-        let weights = Weights::of(&mean([&a.sharp, &b.sharp]));
+    fn compare([a, b]: &[Replicate; 2], pixels: &Pixels) -> Self {
+        let weights = Weights::of(&mean([&a.sharp, &b.sharp])).times(&pixels.stand_for);
         let half = |x: f64| x / 2.0;
         let noise = weights.products([&a.pixels, &b.pixels], [&a.pixels, &b.pixels]).into_iter().map(half);
         let bias = weights.products([&a.pixels, &a.sharp], [&b.pixels, &b.sharp]);
@@ -109,17 +120,7 @@ impl Trial {
             noise: crate::Estimate::mean(&noise),
             bias: crate::Estimate::mean(&bias),
             total: crate::Estimate::mean(&total),
-        }
-    }
-
-    /// What a trial found, beside what was predicted: the noise in the predicted shares.
-    pub(crate) fn parts(&self, predicted: &Parts) -> Parts {
-        let noise = predicted.rays.value + predicted.photons.value;
-        let share = |part: f64| if noise > 0.0 { part / noise } else { 0.5 };
-        Parts {
-            rays: self.noise.scaled(share(predicted.rays.value)),
-            photons: self.noise.scaled(share(predicted.photons.value)),
-            bias: self.bias,
+            run: Spread::default(),
         }
     }
 }

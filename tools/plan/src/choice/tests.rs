@@ -10,18 +10,15 @@ fn world(scale: f64) -> Model {
     let soft = Layer {
         rays: vec![known(0.04); KS.len()],
         photons: vec![known(1.0); KS.len()],
+        lumps: vec![0.0; KS.len()],
         bias: Law { scale: known(scale), power: 1.0 },
     };
     let survey = Survey {
         soft,
-        light: [known(0.01); 3],
-        gathered: RAYS.map(|gathers| known(0.16 / f64::from(gathers))),
-        power: 1.0,
+        rays: DESIGNS.map(|[gathers, shadows]| known(0.16 / f64::from(gathers) + 0.01 / f64::from(shadows))),
         times: Times {
             photon: 1e-6,
-            eye: 1e-6,
-            shadow: 1e-7,
-            gather: 1e-6,
+            rays: DESIGNS.map(|[gathers, shadows]| 1e-6 * f64::from(1 + gathers) + 1e-7 * f64::from(shadows)),
             searches: vec![(5, 1e-6), (10, 2e-6), (20, 4e-6), (40, 8e-6), (80, 16e-6)],
             of: 100_000,
             ..Times::default()

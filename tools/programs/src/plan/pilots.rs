@@ -25,7 +25,7 @@ pub(super) struct Time {
 
 /// Small pictures of the same size, and the share of the planned one that each is, unless that is soon done.
 const PICTURES: u32 = 4;
-const SHARE: f64 = 0.005;
+const SHARE: f64 = 0.003;
 /// Seconds that a small picture shall take: less is measured badly.
 const LEAST: f64 = 0.2;
 

@@ -83,9 +83,8 @@ impl Report<'_> {
         let total = between(&time.total, &seconds);
         line(format!("time      {total} s of processor time for {width}x{height} pixels"));
         for tried in &plan.trials {
-            let verdict = if tried.holds { "holds" } else { "does not hold" };
             line(format!(
-                "tried     {}: {} where {} was predicted, {verdict}; {} s by the parts",
+                "tried     {}: {} where {} was predicted; {} s by the parts",
                 recipe(&tried.choice.recipe),
                 share(tried.error.value),
                 share(tried.choice.parts.total().value),
