@@ -67,6 +67,46 @@ fn what_cannot_be_promised_is_refused() {
 }
 
 #[test]
+fn traffic_is_what_the_whole_picture_fetches() {
+    // Catches: bytes of another order, cache or number of rays than those that are printed, a sample taken for the whole, an
+    // interval that the whole is not in, a map that fits and is fetched again and again.
+    let folder = Folder::new();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell-diffuse.obj --size 96x96");
+    let planned = |more: &str| -> (f64, f64, f64, String, u64) {
+        let row = folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --format json {more}")).ok();
+        let json: serde_json::Value = serde_json::from_str(&row.text()).expect("JSON");
+        let row = &json["rows"][0];
+        let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name} in {row}"));
+        let pipe = row["traffic_pipe"].as_str().expect("a pipe").to_owned();
+        (
+            number("bytes_fetched"),
+            number("bytes_fetched_low"),
+            number("bytes_fetched_high"),
+            pipe,
+            number("photons") as u64,
+        )
+    };
+    let whole = |pipe: &str, photons: u64| -> f64 {
+        folder.run(&format!("pm-photons -q {scene} -n {photons} -o map.pmp").replace(" --size 96x96", "")).ok();
+        let printed = folder.sh(&format!("{pipe} -q --format json")).ok();
+        let json: serde_json::Value = serde_json::from_str(&printed.text()).expect("JSON");
+        json["rows"][0]["bytes_fetched"].as_f64().expect("bytes")
+    };
+    let (found, _, _, pipe, photons) = planned("--on-chip 4M");
+    let all = whole(&pipe, photons);
+    assert!(found <= 40.0 * photons as f64 && found >= all, "{found} for {photons} photons, {all} by {pipe}");
+    let (found, low, high, pipe, photons) = planned("--on-chip 16K");
+    let all = whole(&pipe, photons);
+    assert!(all > 40.0 * photons as f64, "{all}");
+    assert!((low..=high).contains(&all), "{all} is not in {low} to {high}, by {pipe}");
+    assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
+
+    let refused =
+        folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --on-chip 16K --bandwidth 1MB/s --fps 100"));
+    assert!(refused.fails(4).contains("--bandwidth: an error of 9% takes "), "{}", refused.stderr);
+}
+
+#[test]
 fn what_is_asked_wrongly_is_said() {
     let folder = Folder::new();
     for (line, said) in [
@@ -75,6 +115,10 @@ fn what_is_asked_wrongly_is_said() {
         ("pm-plan --error 2% --confidence 100%", "99.9%"),
         ("pm-plan --error 2% --seconds 0", "above 0"),
         ("pm-plan --error 2% --glossy --anyway", "--anyway"),
+        ("pm-plan --error 2% --bandwidth 35GB/s", "--on-chip"),
+        ("pm-plan --error 2% --on-chip 1M --fps 2", "--bandwidth"),
+        ("pm-plan --error 2% --on-chip 1M --bandwidth 35", "such as 35GB/s"),
+        ("pm-plan --error 2% --on-chip 1K", "from 4K"),
     ] {
         let outcome = folder.run(line);
         assert!(outcome.code == 2 && outcome.stderr.contains(said), "{line}: {}", outcome.stderr);

@@ -11,7 +11,7 @@ pub struct Choice {
     pub recipe: Recipe,
     /// The square of its error.
     pub parts: Parts,
-    /// What it costs: seconds of processor time.
+    /// What it costs, as [`Model::cost`] has it.
     pub cost: f64,
 }
 
@@ -46,7 +46,7 @@ pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64
 #[must_use]
 pub fn nearest_in(model: &Model, pixels: f64, cost: f64, caustics: u64) -> Option<Choice> {
     let with_most_samples = |recipe: Recipe| {
-        let affordable = |samples: &u32| model.times().of(&Recipe { samples: *samples, ..recipe }, pixels) <= cost;
+        let affordable = |samples: &u32| model.cost(&Recipe { samples: *samples, ..recipe }, pixels) <= cost;
         let all = grids();
         let samples = all[..all.partition_point(affordable)].last().copied()?;
         Some(choice(model, Recipe { samples, ..recipe }, pixels))
@@ -107,7 +107,7 @@ fn least_samples(model: &Model, recipe: Recipe, pixels: f64, error: f64, errors:
 }
 
 fn choice(model: &Model, recipe: Recipe, pixels: f64) -> Choice {
-    Choice { recipe, parts: model.predict(&recipe), cost: model.times().of(&recipe, pixels) }
+    Choice { recipe, parts: model.predict(&recipe), cost: model.cost(&recipe, pixels) }
 }
 
 #[cfg(test)]

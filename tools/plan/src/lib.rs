@@ -17,7 +17,7 @@
 //! | `estimate`, `replicates` | means over pixels with their intervals; squares without the noise of what is squared |
 //! | `lots` | noise of photons from many small maps, and how much it differs from map to map |
 //! | `law` | bias as a power of the search area, extrapolated to none |
-//! | `recipe`, `times` | what is chosen among, and what it costs |
+//! | `recipe`, `times`, `traffic` | what is chosen among, and what it costs |
 //! | `preview`, `pixels`, `rays`, `traced`, `answers` | pilots: which pixels, rays through them, photons, radiance |
 //! | `survey`, `trial` | all parts measured for many recipes; one recipe measured as a whole |
 //! | `evidence` | what all trials together say |
@@ -41,6 +41,7 @@ mod survey;
 mod task;
 mod times;
 mod traced;
+mod traffic;
 mod trial;
 
 pub use choice::{Choice, Rival, choose, nearest_in};
@@ -52,3 +53,4 @@ pub use recipe::{CAUSTICS_K, MOST_SEEN, Recipe};
 pub use survey::{Effort, Survey};
 pub use task::{PlanError, Task};
 pub use times::Times;
+pub use traffic::{SearchBytes, Traffic, Trouble};

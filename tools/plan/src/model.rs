@@ -48,6 +48,20 @@ impl Model {
         &self.survey.times
     }
 
+    /// What is to be saved: seconds of processor time; or bytes, and where these are the same, seconds.
+    #[must_use]
+    pub fn cost(&self, recipe: &Recipe, pixels: f64) -> f64 {
+        let seconds = self.times().of(recipe, pixels);
+        self.survey.traffic.as_ref().map_or(seconds, |traffic| traffic.of(recipe, pixels) + BYTES_A_SECOND * seconds)
+    }
+
+    /// The same where seconds are to be saved.
+    #[must_use]
+    pub fn by_time(&self) -> Self {
+        let survey = Survey { traffic: None, ..self.survey.clone() };
+        Self { survey, ..*self }
+    }
+
     /// The square of the error of a recipe, whose neighbours, gather and shadow rays are among those measured.
     #[must_use]
     pub fn predict(&self, recipe: &Recipe) -> Parts {
@@ -103,6 +117,9 @@ impl Model {
     }
 }
 
+/// Bytes that are as dear as a second of processor time, where bytes are to be saved: a map that fits on the chip is not to be asked
+/// without end. The paper's picture fetches 196 GB in some minutes.
+const BYTES_A_SECOND: f64 = 1e8;
 /// Degrees of freedom of what is known of lumps: those of as many maps as there are lots.
 const OF_LUMPS: f64 = (2 * LOTS - 1) as f64;
 

@@ -8,6 +8,7 @@ use crate::preview::Preview;
 use crate::recipe::Recipe;
 use crate::survey::{Effort, Survey};
 use crate::task::{PlanError, Task};
+use crate::traffic::Traffic;
 use crate::trial::Trial;
 use pm_sampling::student_quantile;
 
@@ -83,17 +84,18 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
     let start = (task.clock)();
     let preview = Preview::of(task);
     let mut effort = wanted.effort;
+    let traffic = task.search_bytes.map(Traffic::measure).transpose().map_err(PlanError::Traffic)?;
     let (mut model, mut best);
     loop {
         let before = (task.clock)();
-        model = Model::new(Survey::measure(task, &preview, effort)?);
+        model = Model::new(Survey { traffic: traffic.clone(), ..Survey::measure(task, &preview, effort)? });
         let took = (task.clock)() - before;
         // The interval a trial will have, by and large: that of so many pixels.
         let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
         best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
         // Extrapolated far beyond the largest map: a larger one is traced if that is cheap beside what is planned.
         let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
-        let cost = best.first().map_or(f64::INFINITY, |choice| choice.cost);
+        let cost = best.first().map_or(f64::INFINITY, |choice| model.times().of(&choice.recipe, task.pixels()));
         if !beyond || effort.photons >= MOST_SURVEYED || took * 4.0 > cost * WORTH {
             break;
         }

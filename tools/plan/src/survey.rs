@@ -12,6 +12,7 @@ use crate::replicates::{Values, Weights, mean, sum};
 use crate::task::{PlanError, Task};
 use crate::times::Times;
 use crate::traced::{Photons, Traced};
+use crate::traffic::Traffic;
 use pm_gathering::Kernel;
 
 /// How much is measured.
@@ -60,6 +61,8 @@ pub struct Survey {
     pub(crate) edges: f64,
     /// What the work costs.
     pub times: Times,
+    /// The same in bytes, where these are what is to be saved.
+    pub traffic: Option<Traffic>,
     /// Photons of the largest map.
     pub(crate) photons: u64,
     /// Share of the picture's pixels that was looked at.

@@ -5,6 +5,8 @@ use pm_light::scene::{Camera, Scene};
 use pm_maps::BuildError;
 use pm_random::Random;
 
+use crate::traffic::{SearchBytes, Trouble};
+
 /// What is to be planned.
 pub struct Task<'a> {
     /// The scene.
@@ -19,6 +21,8 @@ pub struct Task<'a> {
     pub seed: u64,
     /// Seconds of processor time so far.
     pub clock: &'a dyn Fn() -> f64,
+    /// Where bytes are what is to be saved: those of a search.
+    pub search_bytes: Option<&'a SearchBytes<'a>>,
 }
 
 impl Task<'_> {
@@ -43,6 +47,9 @@ pub enum PlanError {
     /// There is no light.
     #[error("what the camera sees is black: no light comes there, or too little to be found by chance")]
     Dark,
+    /// Bytes could not be measured.
+    #[error("bytes of searches: {0}")]
+    Traffic(Trouble),
     /// A map cannot be built.
     #[error(transparent)]
     Map(#[from] BuildError),

@@ -4,6 +4,7 @@ use crate::cli::{Common, choice};
 use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
 use pm_report::Format;
+use pm_size::Bytes;
 
 /// Say how little a picture needs: the cheapest pm-picture of an error that is wanted, its error and time, and what it beats.
 ///
@@ -27,6 +28,15 @@ pub struct Args {
     /// Processor time that the picture may take at most, in seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) seconds: Option<f64>,
+    /// Save bytes fetched from memory rather than seconds: so much room there is on the chip for a cache and an order's store
+    #[arg(long, value_name = "SIZE", value_parser = on_chip)]
+    pub(super) on_chip: Option<Bytes>,
+    /// What memory can do, such as 35GB/s: what needs more is refused
+    #[arg(long, value_name = "RATE", value_parser = bandwidth, requires = "on_chip")]
+    pub(super) bandwidth: Option<f64>,
+    /// Pictures a second that --bandwidth has to do for
+    #[arg(long, value_name = "N", default_value = "1", requires = "bandwidth", value_parser = seconds)]
+    pub(super) fps: f64,
     /// How the plan is written: in words, or as a row of numbers
     #[arg(long, default_value = "table", value_parser = choice::<Format>())]
     pub(super) format: Format,
@@ -51,6 +61,7 @@ pub struct Args {
 const EXAMPLES: &str = "\
 Examples:
   pm-plan --error 2%
+  pm-plan --error 5% --on-chip 1M --bandwidth 35GB/s --fps 10
   pm-plan room.obj --eye 0,1.6,4 --look-at 0,1,0 --error 5% --seconds 30";
 
 /// A share of 1 from percent.
@@ -67,7 +78,23 @@ fn confidence(text: &str) -> Result<f64, &'static str> {
     percent(text, 50.0, 99.9).ok_or("percent from 50% to 99.9% are expected, such as 95%")
 }
 
+fn on_chip(text: &str) -> Result<Bytes, String> {
+    let size: Bytes = text.parse().map_err(|error: pm_size::SizeError| error.to_string())?;
+    let possible = 4096..=1 << 40;
+    Some(size).filter(|size| possible.contains(&size.0)).ok_or_else(|| "a size from 4K to 1T is expected".into())
+}
+
+/// Bytes a second, in powers of 1000 as bandwidths are.
+fn bandwidth(text: &str) -> Result<f64, &'static str> {
+    let units = [("TB/s", 1e12), ("GB/s", 1e9), ("MB/s", 1e6)];
+    let number = units.into_iter().find_map(|(unit, factor)| Some((text.strip_suffix(unit)?.trim(), factor)));
+    let parsed = number.and_then(|(number, factor)| Some(number.parse::<f64>().ok()? * factor));
+    parsed
+        .filter(|rate| rate.is_finite() && *rate > 0.0)
+        .ok_or("a rate such as 35GB/s is expected, in MB/s, GB/s or TB/s")
+}
+
 fn seconds(text: &str) -> Result<f64, &'static str> {
     let parsed = text.parse().ok().filter(|seconds: &f64| seconds.is_finite() && *seconds > 0.0);
-    parsed.ok_or("a number of seconds above 0 is expected")
+    parsed.ok_or("a number above 0 is expected")
 }

@@ -3,6 +3,7 @@
 use super::args::Args;
 use super::pilots::Time;
 use super::report::{percent, root};
+use super::traffic::Fetched;
 use crate::cli::{Common, refusal, usage};
 use crate::setting::SceneArgs;
 use pm_light::scene::MaterialKind;
@@ -52,7 +53,7 @@ pub(super) fn error_out_of_reach(
     }
     // As long as somebody might wait.
     const HOURS: f64 = 10.0 * 3600.0;
-    match nearest_in(model, pixels, HOURS, caustics) {
+    match nearest_in(&model.by_time(), pixels, HOURS, caustics) {
         Some(near) => refusal(format!(
             "--error {wanted}: no recipe that is planned with has so little error with a confidence of {}; nearest is {} by {} \
              in {:.0} s of processor time",
@@ -62,6 +63,34 @@ pub(super) fn error_out_of_reach(
             near.cost
         )),
         None => usage("the picture is too large to be planned: ask for a smaller --size"),
+    }
+}
+
+/// The order that fetches least fetches too much.
+pub(super) fn too_much(
+    args: &Args,
+    plan: &Plan,
+    least: &Fetched,
+    bandwidth: f64,
+    pixels: f64,
+    caustics: u64,
+) -> anyhow::Error {
+    let upper = least.bytes.upper(args.confidence) * args.fps;
+    let needed = format!(
+        "--bandwidth: an error of {} takes {} a second, {}",
+        percent(args.error),
+        super::report::bytes(upper),
+        least.order
+    );
+    // What fewer rays fetch, by the share that these do.
+    let budget = plan.choice.cost * bandwidth / upper;
+    match nearest_in(&plan.model, pixels, budget, caustics) {
+        Some(near) => refusal(format!(
+            "{needed}; nearest with that is an error of about {}, by {}",
+            percent(root(near.parts.total().value)),
+            super::report::recipe(&near.recipe)
+        )),
+        None => refusal(format!("{needed}; nothing that is planned with does with that")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::args::Args;
 use super::pilots::Time;
+use super::traffic::Fetched;
 use crate::pipe::Pipe;
 use pm_plan::{Choice, Estimate, Plan, Recipe, Rival};
 use pm_report::{Column, Table, Value};
@@ -12,6 +13,8 @@ pub(super) struct Report<'a> {
     pub(super) args: &'a Args,
     pub(super) plan: &'a Plan,
     pub(super) time: &'a Time,
+    /// What orders fetch, the least first; none where it was not asked.
+    pub(super) fetched: &'a [Fetched],
     /// Seconds of processor time that planning took, without the small pictures.
     pub(super) own: f64,
     pub(super) pipe: Pipe,
@@ -38,6 +41,15 @@ pub(super) fn percent(share: f64) -> String {
     format!("{short}%")
 }
 
+/// Bytes in powers of 1000, as bandwidths are.
+pub(super) fn bytes(bytes: f64) -> String {
+    let units = [(1e12, "TB"), (1e9, "GB"), (1e6, "MB"), (1e3, "kB")];
+    let bytes = bytes.max(0.0);
+    let (unit, name) = units.into_iter().find(|(unit, _)| bytes >= unit * 0.9995).unwrap_or((1.0, "bytes"));
+    let digits = if bytes / unit < 9.995 { 2 } else { usize::from(bytes / unit < 99.95) };
+    format!("{:.digits$} {name}", bytes / unit)
+}
+
 /// A recipe in short.
 pub(super) fn recipe(recipe: &Recipe) -> String {
     let Recipe { samples, gathers, light_samples, photons, k, caustics } = recipe;
@@ -51,7 +63,7 @@ pub(super) fn recipe(recipe: &Recipe) -> String {
 impl Report<'_> {
     /// The plan, for people.
     pub(super) fn text(&self) -> String {
-        let Self { args, plan, time, own, pipe, size: [width, height] } = self;
+        let Self { args, plan, time, own, pipe, size: [width, height], .. } = self;
         let confidence = args.confidence;
         let mut text = String::new();
         let mut line = |words: String| writeln!(text, "{words}").expect("a string takes all");
@@ -82,13 +94,22 @@ impl Report<'_> {
         ));
         let total = between(&time.total, &seconds);
         line(format!("time      {total} s of processor time for {width}x{height} pixels"));
+        let shown = |value: f64| bytes(value);
+        for (at, Fetched { order, bytes, cache, .. }) in self.fetched.iter().enumerate() {
+            let label = if at == 0 { "traffic" } else { "" };
+            let cache = pm_size::Bytes(*cache);
+            line(format!("{label:<9} {} fetched: {order}, a cache of {cache}", between(bytes, &shown)));
+        }
+        if let Some(least) = self.fetched.first() {
+            line(format!("          in full: {}", least.pipe));
+        }
         for tried in &plan.trials {
             line(format!(
                 "tried     {}: {} where {} was predicted; {} s by the parts",
                 recipe(&tried.choice.recipe),
                 share(tried.error.value),
                 share(tried.choice.parts.total().value),
-                seconds(tried.choice.cost)
+                seconds(plan.model.times().of(&tried.choice.recipe, f64::from(*width) * f64::from(*height)))
             ));
         }
         line(format!("next best {}", self.rival()));
@@ -106,11 +127,14 @@ impl Report<'_> {
 
     /// The plan as a row, for programs. Errors and chances are shares of 1.
     pub(super) fn table(&self) -> Table {
-        let Self { args, plan, time, own, pipe, size: [width, height] } = self;
+        let Self { args, plan, time, own, pipe, size: [width, height], .. } = self;
         let Recipe { samples, gathers, light_samples, photons, k, caustics } = plan.choice.recipe;
         let [low, high] = two_sided(&plan.error, args.confidence).map(root);
         let [fast, slow] = two_sided(&time.total, args.confidence).map(|seconds| seconds.max(0.0));
         let real = |x: f64| Value::Float(x, 4);
+        let least = self.fetched.first();
+        let fetched = least.map(|least| least.bytes);
+        let [low_bytes, high_bytes] = fetched.map_or([f64::NAN; 2], |bytes| two_sided(&bytes, args.confidence));
         let whole = |x: u32| Value::Int(x.into());
         let cells = [
             (Column::text("pipe"), Value::Text(pipe.to_string())),
@@ -135,6 +159,11 @@ impl Report<'_> {
             (Column::number("k"), whole(k)),
             (Column::number("caustics"), Value::Int(caustics)),
             (Column::text("next_best"), Value::Text(self.rival())),
+            (Column::text("order"), Value::Text(least.map_or_else(String::new, |least| least.order.to_string()))),
+            (Column::number("bytes_fetched"), real(fetched.map_or(f64::NAN, |bytes| bytes.value))),
+            (Column::number("bytes_fetched_low"), real(low_bytes)),
+            (Column::number("bytes_fetched_high"), real(high_bytes)),
+            (Column::text("traffic_pipe"), Value::Text(least.map_or_else(String::new, |least| least.pipe.to_string()))),
         ];
         let (columns, row) = cells.into_iter().unzip();
         let mut table = Table::new(columns);

@@ -1,0 +1,210 @@
+//! Bytes that the searches of gather rays fetch, by the order they come in and what there is on the chip; measured on samples of
+//! the picture, by our own programs.
+
+use crate::pipe::Pipe;
+use anyhow::Context as _;
+use pm_orders::StoredQuery;
+use pm_plan::{Estimate, Recipe, Trouble};
+use pm_report::sheet::{Sheet, number};
+use pm_sampling::{CONFIDENCE, Spread, student_quantile};
+use pm_size::Bytes;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// A picture whose searches fetch from memory through what is on the chip.
+pub(super) struct Chip<'a> {
+    scene: &'a [String],
+    camera: &'a [String],
+    size: [u32; 2],
+    seed: u64,
+    on_chip: u64,
+    folder: tempfile::TempDir,
+    /// Numbers of photons of which there is a map in the folder.
+    maps: RefCell<BTreeSet<u64>>,
+}
+
+/// In which order searches come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Order {
+    /// Row by row.
+    Scanline,
+    /// Tile by tile.
+    Tiled,
+    /// Tile by tile of so many pixels a side, along a Hilbert curve within each.
+    Hilbert(u32),
+}
+
+/// What an order fetches.
+pub(super) struct Fetched {
+    pub(super) order: Order,
+    /// Bytes of the map for the whole picture.
+    pub(super) bytes: Estimate,
+    /// Bytes of the cache: what is on the chip, less the order's store.
+    pub(super) cache: u64,
+    /// How it is measured in full.
+    pub(super) pipe: Pipe,
+}
+
+/// Searches of a sample, about: of fewer all are made.
+const SAMPLE: u64 = 60_000;
+/// Searches of a window in scanline order, and of those before it that fill the cache.
+const WINDOW: [u64; 2] = [400, 1600];
+/// Side of a tile without an order of its own.
+const TILE: u32 = 8;
+/// Sides of tiles that are sorted.
+const SORTED_TILES: [u32; 5] = [4, 8, 16, 32, 64];
+/// Caches are of whole multiples of so many bytes.
+const CACHE_STEP: u64 = 4096;
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scanline => write!(f, "scanline"),
+            Self::Tiled => write!(f, "tiles of {TILE}x{TILE}"),
+            Self::Hilbert(side) => write!(f, "Hilbert in tiles of {side}x{side}"),
+        }
+    }
+}
+
+impl<'a> Chip<'a> {
+    pub(super) fn new(
+        (scene, camera, size): (&'a [String], &'a [String], [u32; 2]),
+        seed: u64,
+        on_chip: Bytes,
+    ) -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir().context("a folder for photon maps")?;
+        Ok(Self { scene, camera, size, seed, on_chip: on_chip.0, folder, maps: RefCell::default() })
+    }
+
+    /// All orders that the chip has room for, those that fetch least first.
+    pub(super) fn measure(&self, recipe: &Recipe) -> anyhow::Result<Vec<Fetched>> {
+        let mut found: Vec<Fetched> =
+            self.orders(recipe).into_iter().map(|order| self.fetched(recipe, order)).collect::<anyhow::Result<_>>()?;
+        found.sort_by(|a, b| a.bytes.value.total_cmp(&b.bytes.value));
+        Ok(found)
+    }
+
+    /// Bytes that a search fetches: in the order that needs little room, of rays as few as there may be.
+    pub(super) fn search_bytes(&self, k: u32, photons: u64) -> Result<f64, Trouble> {
+        let recipe = Recipe { samples: 4, gathers: 4, light_samples: 1, photons, k, caustics: 0 };
+        let order = self.orders(&recipe).into_iter().find(|order| matches!(order, Order::Hilbert(_)));
+        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline))?;
+        let [width, height] = self.size;
+        let searches = f64::from(width) * f64::from(height) * f64::from(recipe.samples * recipe.gathers);
+        Ok(found.bytes.value / searches)
+    }
+
+    fn orders(&self, recipe: &Recipe) -> Vec<Order> {
+        let longest = self.size[0].max(self.size[1]);
+        let fits = |side: u32| side <= longest && self.store(recipe, Order::Hilbert(side)) <= self.on_chip / 2;
+        let sorted = SORTED_TILES.into_iter().filter(|&side| fits(side)).map(Order::Hilbert);
+        [Order::Scanline, Order::Tiled].into_iter().chain(sorted).collect()
+    }
+
+    /// Bytes of the queries that an order holds.
+    fn store(&self, recipe: &Recipe, order: Order) -> u64 {
+        match order {
+            Order::Scanline | Order::Tiled => 0,
+            Order::Hilbert(side) => u64::from(side * side) * rays(recipe) * StoredQuery::Full.bytes(),
+        }
+    }
+
+    fn fetched(&self, recipe: &Recipe, order: Order) -> anyhow::Result<Fetched> {
+        let cache = ((self.on_chip - self.store(recipe, order)) / CACHE_STEP).max(1) * CACHE_STEP;
+        let map = self.map(recipe.photons)?;
+        let printed = self.pipe(recipe, order, cache, &map, &self.sample(recipe, order)).with(quiet_csv()).run()?;
+        let bytes = read(&printed, cache)?;
+        Ok(Fetched { order, bytes, cache, pipe: self.pipe(recipe, order, cache, "map.pmp", &[]) })
+    }
+
+    /// Which rays are cast: options of `pm-queries`; none where all are.
+    fn sample(&self, recipe: &Recipe, order: Order) -> Vec<String> {
+        let [width, height] = self.size.map(u64::from);
+        if width * height * rays(recipe) <= 2 * SAMPLE {
+            return vec![];
+        }
+        let seed = ["--sample-seed".to_owned(), self.seed.to_string()];
+        let side = match order {
+            Order::Scanline => {
+                let [window, warm_up] = WINDOW;
+                let of_row = width * rays(recipe);
+                let warm_up = warm_up.min(of_row.saturating_sub(window));
+                let windows = (SAMPLE / (window + warm_up)).min(height);
+                let numbers = [("--only-tiles", windows), ("--window", window.min(of_row)), ("--warm-up", warm_up)];
+                let words = numbers.into_iter().flat_map(|(name, number)| [name.to_owned(), number.to_string()]);
+                return words.chain(seed).collect();
+            }
+            Order::Tiled => TILE,
+            Order::Hilbert(side) => side,
+        };
+        let side = u64::from(side);
+        let all = width.div_ceil(side) * height.div_ceil(side);
+        let tiles = (SAMPLE / (side * side * rays(recipe))).clamp(8, 64);
+        if tiles >= all {
+            return vec![];
+        }
+        ["--only-tiles".to_owned(), tiles.to_string()].into_iter().chain(seed).collect()
+    }
+
+    /// The searches of the gather rays in this order, and the cache that they go through.
+    fn pipe(&self, recipe: &Recipe, order: Order, cache: u64, map: &str, sample: &[String]) -> Pipe {
+        let Recipe { samples, gathers, k, caustics, .. } = recipe;
+        let mut rays = words(&format!("-q --samples {samples} --gathers {gathers}"));
+        if *caustics > 0 {
+            rays.push("--no-caustics".to_owned());
+        }
+        if let Order::Tiled | Order::Hilbert(_) = order {
+            let side = if let Order::Hilbert(side) = order { side } else { TILE };
+            rays.extend(words(&format!("--order tiled --tile {side}")));
+        }
+        rays.extend(sample.iter().chain(self.camera).chain(self.scene).cloned());
+        let mut pipe = Pipe::new("pm-queries", rays);
+        if let Order::Hilbert(_) = order {
+            let store = Bytes(self.store(recipe, order));
+            pipe = pipe.then("pm-reorder", words(&format!("-q hilbert --per batch --storage {store}")));
+        }
+        let gather = words("-q").into_iter().chain([map.to_owned()]).chain(words(&format!("-k {k}")));
+        pipe.then("pm-gather", gather).then("pm-cachesim", words(&format!("--sizes {} --ways full", Bytes(cache))))
+    }
+
+    /// A map of so many photons, as the picture's will be.
+    fn map(&self, photons: u64) -> anyhow::Result<String> {
+        let path = self.folder.path().join(format!("{photons}.pmp")).display().to_string();
+        if self.maps.borrow_mut().insert(photons) {
+            let options = words(&format!("-q -n {photons} --seed {}", self.seed));
+            let output = ["-o".to_owned(), path.clone()];
+            Pipe::new("pm-photons", options.into_iter().chain(output).chain(self.scene.iter().cloned())).run()?;
+        }
+        Ok(path)
+    }
+}
+
+/// Gather rays of a pixel.
+fn rays(recipe: &Recipe) -> u64 {
+    u64::from(recipe.samples) * u64::from(recipe.gathers)
+}
+
+fn words(line: &str) -> Vec<String> {
+    line.split(' ').map(str::to_owned).collect()
+}
+
+fn quiet_csv() -> Vec<String> {
+    words("-q --format csv")
+}
+
+/// What `pm-cachesim` found: its interval is of 95 %, by Student's t. Of a map that fits, no line is fetched twice, whatever a
+/// sample that begins with an empty cache says.
+fn read(printed: &[u8], cache: u64) -> anyhow::Result<Estimate> {
+    let sheet = Sheet::parse("pm-cachesim", printed)?;
+    let row = sheet.rows().first().context("pm-cachesim has printed no row")?;
+    let field = |name: &str| anyhow::Ok(number(&row[sheet.column(name)?]).unwrap_or(0.0));
+    let (value, half_width) = (field("bytes_fetched")?, field("bytes_fetched_error")?);
+    let map = field("blocks")? * field("line_bytes")?;
+    if map <= cache as f64 {
+        return Ok(Estimate { value: value.min(map), spread: Spread::default() });
+    }
+    let freedom = field("degrees_of_freedom")?.max(1.0);
+    let variance = (half_width / student_quantile(CONFIDENCE, freedom)).powi(2);
+    Ok(Estimate { value, spread: Spread { variance, freedom } })
+}
