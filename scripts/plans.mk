@@ -8,6 +8,7 @@ export PLAN_SIZE PLAN_RUNS PLAN_SECONDS
 
 plan-coverage: out/plans.csv ## How often pm-plan's promise is kept: seven rooms, three errors, 20 seeds each (hours; PLAN_SECONDS=8: half an hour)
 	@awk -F, -f scripts/plan-coverage.awk $<
+	@cmp -s $< scripts/plans.csv || echo 'The report shows other numbers: cp $< scripts/plans.csv'
 
 # Ten times the effort of the finest plan and more, with k so small and photons so many that nothing is blurred.
 PLAN_REFERENCE := --samples 4096 --gathers 4 --light-samples 4 -n 4000000 -k 10 --caustics 2000000 --seed 7777
@@ -16,3 +17,10 @@ plan_scene = $(or $(wildcard scenes/$1.obj),out/scenes/$1.obj)
 out/plans/%.exr: $$(call plan_scene,$$*) $(call made_with,PLAN_SIZE PLAN_REFERENCE)
 	@mkdir -p $(@D)
 	$(LAUNCH) pm-picture -q $< $(if $(findstring glossy,$*),--glossy) --size $(PLAN_SIZE) $(PLAN_REFERENCE) -t $(THREADS) --image $@
+
+# The whole grid of photons, neighbours and rays, for any scene.
+ROOM ?= cornell-diffuse
+export ROOM
+
+need: out/need.csv ## What a scene needs: error, seconds and bytes of photons x neighbours x rays, ROOM=cornell-diffuse (twenty minutes)
+	@awk -F, -f scripts/need.awk $<

@@ -74,7 +74,7 @@ fn traffic_is_what_the_whole_picture_fetches() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell-diffuse.obj --size 96x96");
     let planned = |more: &str| -> (f64, f64, f64, String, u64) {
         let row = folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --format json {more}")).ok();
-        let json: serde_json::Value = serde_json::from_str(&row.text()).expect("JSON");
+        let json: serde_json::Value = serde_json::from_str(row.text()).expect("JSON");
         let row = &json["rows"][0];
         let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name} in {row}"));
         let pipe = row["traffic_pipe"].as_str().expect("a pipe").to_owned();
@@ -89,7 +89,7 @@ fn traffic_is_what_the_whole_picture_fetches() {
     let whole = |pipe: &str, photons: u64| -> f64 {
         folder.run(&format!("pm-photons -q {scene} -n {photons} -o map.pmp").replace(" --size 96x96", "")).ok();
         let printed = folder.sh(&format!("{pipe} -q --format json")).ok();
-        let json: serde_json::Value = serde_json::from_str(&printed.text()).expect("JSON");
+        let json: serde_json::Value = serde_json::from_str(printed.text()).expect("JSON");
         json["rows"][0]["bytes_fetched"].as_f64().expect("bytes")
     };
     let (found, _, _, pipe, photons) = planned("--on-chip 4M");

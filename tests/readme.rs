@@ -28,6 +28,7 @@ const NOT_RUN: &[(&str, &str, &str)] = &[
     ("scenes/README.md", "python3 ", "writes into the repository"),
     ("scenes/PICTURES.md", "pm-photons -n 1000000", "takes minutes; the same pipes are run small by pm-picture"),
     ("scripts/ACCURACY.md", "make ", "runs for an hour"),
+    ("scripts/NEED.md", "make ", "runs for an hour"),
     ("scripts/PAPER.md", "make ", "runs for an hour"),
     ("scripts/README.md", "make ", "runs for minutes"),
     ("scripts/README.md", "salloc ", "needs a cluster"),

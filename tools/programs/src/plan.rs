@@ -74,7 +74,7 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
     }
     let own = clock::own_seconds() - started + clock::seconds_of_others() - others;
     let pilots = Pilots { scene: &scene, camera: &camera, size, threads: args.common.threads, seed: args.seed };
-    let time = pilots.measure(&plan.choice)?;
+    let time = pilots.measure(&plan.choice, plan.model.times())?;
     if let Some(seconds) = args.seconds.filter(|&seconds| time.total.upper(args.confidence) > seconds) {
         return Err(refuse::too_slow(&args, &plan, &time, seconds, pixels, task.caustics));
     }

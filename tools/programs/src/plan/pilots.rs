@@ -3,7 +3,7 @@
 use super::clock;
 use crate::pipe::Pipe;
 use anyhow::Context as _;
-use pm_plan::{Choice, Estimate, Recipe};
+use pm_plan::{Choice, Estimate, Recipe, Times};
 
 /// What small pictures are made of.
 pub(super) struct Pilots<'a> {
@@ -40,9 +40,12 @@ impl Pilots<'_> {
     }
 
     /// What the picture will take: some small ones of one size, and a tiny one for what does not depend on the size.
-    pub(super) fn measure(&self, choice: &Choice) -> anyhow::Result<Time> {
+    pub(super) fn measure(&self, choice: &Choice, times: &Times) -> anyhow::Result<Time> {
         let pixels = f64::from(self.size[0]) * f64::from(self.size[1]);
-        let share = (LEAST / choice.cost).clamp(SHARE, 1.0);
+        // What pixels take has to be told from what photons take, which is the same for the smallest picture.
+        let of_photons = times.of(&choice.recipe, 0.0);
+        let of_pixels = times.of(&choice.recipe, pixels) - of_photons;
+        let share = (LEAST.max(of_photons / 2.0) / of_pixels).clamp(SHARE, 1.0);
         let small = self.scaled(share);
         let tiny = self.scaled(share / 16.0);
         let of = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);

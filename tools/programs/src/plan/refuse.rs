@@ -7,7 +7,7 @@ use super::traffic::Fetched;
 use crate::cli::{Common, refusal, usage};
 use crate::setting::SceneArgs;
 use pm_light::scene::MaterialKind;
-use pm_plan::{Model, Plan, nearest_in};
+use pm_plan::{Choice, Model, Plan, nearest_in};
 
 /// Refuses a scene whose glossy lobes are left out without a word: its picture would be planned well and be another scene's.
 pub(super) fn paint_left_out(args: &Args) -> anyhow::Result<()> {
@@ -66,6 +66,12 @@ pub(super) fn error_out_of_reach(
     }
 }
 
+/// The bound on the error of another recipe, as far above it as that of the plan is.
+fn at_most(plan: &Plan, args: &Args, other: &Choice) -> f64 {
+    let margin = plan.error.upper(args.confidence) / plan.error.value.max(f64::MIN_POSITIVE);
+    root(other.parts.total().value * margin)
+}
+
 /// The order that fetches least fetches too much.
 pub(super) fn too_much(
     args: &Args,
@@ -86,8 +92,8 @@ pub(super) fn too_much(
     let budget = plan.choice.cost * bandwidth / upper;
     match nearest_in(&plan.model, pixels, budget, caustics) {
         Some(near) => refusal(format!(
-            "{needed}; nearest with that is an error of about {}, by {}",
-            percent(root(near.parts.total().value)),
+            "{needed}; nearest with that is an error of at most {}, by {}",
+            percent(at_most(plan, args, &near)),
             super::report::recipe(&near.recipe)
         )),
         None => refusal(format!("{needed}; nothing that is planned with does with that")),
@@ -109,8 +115,8 @@ pub(super) fn too_slow(
     let budget = seconds * plan.choice.cost / time.total.value;
     match nearest_in(&plan.model, pixels, budget, caustics) {
         Some(near) => refusal(format!(
-            "{needed}; nearest in that time is an error of about {}, by {}",
-            percent(root(near.parts.total().value)),
+            "{needed}; nearest in that time is an error of at most {}, by {}",
+            percent(at_most(plan, args, &near)),
             super::report::recipe(&near.recipe)
         )),
         None => refusal(format!("{needed}; nothing that is planned with is done in that time")),
