@@ -2,7 +2,8 @@
 
 use crate::Recipe;
 use crate::model::{Model, Parts};
-use crate::survey::{DESIGNS, KS};
+use crate::recipe::DESIGNS;
+use crate::survey::KS;
 
 /// A recipe with what it gives and takes.
 #[derive(Clone, Copy, Debug, PartialEq)]

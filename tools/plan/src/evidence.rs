@@ -124,7 +124,8 @@ impl Known {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::survey::{DESIGNS, KS, Layer, Survey};
+    use crate::recipe::DESIGNS;
+    use crate::survey::{KS, Layer, Survey};
 
     /// Of rays alone, with an error of 0.1 by 4 eye rays.
     fn surveyed() -> Model {

@@ -1,7 +1,8 @@
 //! The error of any recipe, by what was measured of some.
 
 use crate::estimate::Estimate;
-use crate::survey::{KS, LOTS, Layer, PILOT, Survey, nth_design, seen_by};
+use crate::recipe::nth_design;
+use crate::survey::{KS, LOTS, Layer, PILOT, Survey, seen_by};
 use crate::{Recipe, Times};
 use pm_sampling::Spread;
 

@@ -21,6 +21,8 @@ pub struct Recipe {
 pub const MOST_SEEN: u32 = 16;
 /// Nearest photons of caustics that a point seen asks for.
 pub const CAUSTICS_K: u32 = 50;
+/// Gather and shadow rays of a point that are measured, and planned with.
+pub(crate) const DESIGNS: [[u32; 2]; 6] = [[1, 1], [1, 4], [4, 1], [4, 4], [16, 4], [16, 16]];
 /// Least and most eye rays for each pixel. A single one goes through the pixel's middle, and does not smooth edges.
 const SAMPLES: [u32; 2] = [4, 1 << 14];
 
@@ -42,6 +44,11 @@ impl Recipe {
         let of_root = |root: u32| [root * root, root * (root + 1)];
         (2..=128).flat_map(of_root).find(|&samples| f64::from(samples) >= wanted && samples <= SAMPLES[1])
     }
+}
+
+/// Which of [`DESIGNS`] has these numbers of rays.
+pub(crate) fn nth_design(gathers: u32, light_samples: u32) -> usize {
+    DESIGNS.iter().position(|&known| known == [gathers, light_samples]).unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::lots::{OfLot, PhotonNoise};
 use crate::pixels::Pixels;
 use crate::preview::Preview;
 use crate::rays::{Design, RaySet, cast};
-use crate::recipe::MOST_SEEN;
+use crate::recipe::{DESIGNS, MOST_SEEN, nth_design};
 use crate::replicates::{Values, Weights, mean, sum};
 use crate::task::{PlanError, Task};
 use crate::times::Times;
@@ -32,8 +32,6 @@ const USUAL_K: usize = 1;
 pub(crate) const LOTS: usize = 8;
 /// Rays of a pixel in pilots.
 pub(crate) const PILOT: Design = Design { samples: 4, gathers: 4, light_samples: 4 };
-/// Gather and shadow rays of a point that are measured, and planned with.
-pub(crate) const DESIGNS: [[u32; 2]; 6] = [[1, 1], [1, 4], [4, 1], [4, 4], [16, 4], [16, 16]];
 
 /// What of a photon map's picture the photons and the radius are to blame for.
 #[derive(Clone, Debug, Default)]
@@ -257,9 +255,4 @@ fn timed_tracing(task: &Task<'_>, n: u64, caustics: bool) -> Result<f64, PlanErr
 /// How many eye rays ask for caustics, relative to the pilot.
 pub(crate) fn seen_by(samples: u32) -> f64 {
     f64::from(PILOT.samples) / f64::from(samples.min(MOST_SEEN))
-}
-
-/// Which of [`DESIGNS`] has these numbers of rays.
-pub(crate) fn nth_design(gathers: u32, light_samples: u32) -> usize {
-    DESIGNS.iter().position(|&known| known == [gathers, light_samples]).unwrap_or(0)
 }

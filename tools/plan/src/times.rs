@@ -1,8 +1,6 @@
 //! What a recipe costs: processor time, by what its parts took in the pilots.
 
-use crate::Recipe;
-use crate::recipe::{CAUSTICS_K, MOST_SEEN};
-use crate::survey::{DESIGNS, nth_design};
+use crate::recipe::{CAUSTICS_K, DESIGNS, MOST_SEEN, Recipe, nth_design};
 
 /// Seconds of processor time that parts of the work took here, a while ago.
 #[derive(Clone, Debug, Default)]
