@@ -6,10 +6,7 @@
 # ROOM is a scene of scenes/ or out/scenes/. Of many rays, 16 windows or tiles are traced.
 set -euo pipefail
 out=$1 room=$2 size=$3 reference=$4 photons=$5 k=$6 samples=$7 gathers=$8
-scene=scenes/$room.obj
-[ -e "$scene" ] || scene=out/scenes/$room.obj
-glossy=()
-case $room in *glossy*) glossy=(--glossy) ;; esac
+. "${0%/*}/room.sh"
 mkdir -p "$(dirname "$out")"
 work=$(mktemp -d "$out.XXXXXX")
 trap 'rm -rf "$work"' EXIT
@@ -19,11 +16,11 @@ column() {
         NR == 2 { sub(/,"([^"]|"")*"$/, ",x"); print $(NF - at) }'
 }
 TIMEFORMAT='%U %S'
-{ time pm-picture -q "$scene" "${glossy[@]}" --size "$size" -n "$photons" -k "$k" --samples "$samples" --gathers "$gathers" \
+{ time pm-picture -q "${load[@]}" --size "$size" -n "$photons" -k "$k" --samples "$samples" --gathers "$gathers" \
     --keep "$work" --image "$work/picture.exr" 2>&3; } 3>&2 2> "$work/time"
 error=$(pm-view -q "$reference" "$work/picture.exr" --format csv | column rel_mse)
 
-rays=(-q "$scene" "${glossy[@]}" --size "$size" --samples "$samples" --gathers "$gathers" --no-caustics)
+rays=(-q "${load[@]}" --size "$size" --samples "$samples" --gathers "$gathers" --no-caustics)
 row=$((${size%x*} * samples * gathers))
 window=$((row < 400 ? row : 400))
 warm_up=$((row - window < 1600 ? row - window : 1600))

@@ -7,10 +7,7 @@
 set -euo pipefail
 out=$1 room=$2 wanted=$3 runs=$4 reference=$5
 shift 5
-scene=scenes/$room.obj
-[ -e "$scene" ] || scene=out/scenes/$room.obj
-glossy=()
-case $room in *glossy*) glossy=(--glossy) ;; esac
+. "${0%/*}/room.sh"
 mkdir -p "$(dirname "$out")"
 work=$(mktemp -d "$out.XXXXXX")
 trap 'rm -rf "$work"' EXIT
@@ -19,7 +16,7 @@ promised=error,error_low,error_high,seconds,planning_seconds,samples,gathers,lig
 columns="planned_$(echo "$promised" | sed 's/,/,planned_/g')"
 columns="${columns//planned_planning/planning},runs,kept,true_error,worst_error,true_seconds,refused"
 code=0
-pm-plan -q "$scene" "${glossy[@]}" --error "$wanted" --format csv "$@" > "$work/plan.csv" 2> "$work/why" || code=$?
+pm-plan -q "${load[@]}" --error "$wanted" --format csv "$@" > "$work/plan.csv" 2> "$work/why" || code=$?
 if [ $code = 4 ]; then
     echo "$columns"
     echo "$(echo "$promised" | sed 's/[^,]//g'),0,0,,,,\"$(tr -d '"\n' < "$work/why")\""

@@ -7,11 +7,10 @@
 set -euo pipefail
 out=$1 room=$2
 shift 2
-scene=scenes/$room.obj
-[ -e "$scene" ] || scene=out/scenes/$room.obj
+. "${0%/*}/room.sh"
 TIMEFORMAT='%U %S'
 mkdir -p "$out.streams"
-{ time pm-picture -q "$scene" --size 64x64 "$@" --keep "$out.streams" --image "$out.exr" 2>&3; } 3>&2 2> "$out.time"
+{ time pm-picture -q "${load[@]}" --size 64x64 "$@" --keep "$out.streams" --image "$out.exr" 2>&3; } 3>&2 2> "$out.time"
 rm -r "$out.streams"
 pm-view -q "scripts/references/$room.exr" "$out.exr" --format csv > "$out.error"
 {

@@ -143,15 +143,11 @@ impl<'a> BlockEncoder<'a> {
             }
             Some((_, Group::Tree { inner, leaves })) => {
                 // A record that no node is ends every walk.
+                let above = leaves.saturating_sub(1);
                 let node = |&(region, index): &(u16, u32)| match region == inner {
-                    true => {
-                        if index < leaves.saturating_sub(1) {
-                            index
-                        } else {
-                            u32::MAX
-                        }
-                    }
-                    false => leaves.saturating_sub(1).saturating_add(index),
+                    true if index < above => index,
+                    true => u32::MAX,
+                    false => above.saturating_add(index),
                 };
                 let nodes: Vec<u32> = reads.iter().map(node).collect();
                 let mut at = 0;

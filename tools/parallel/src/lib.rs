@@ -77,7 +77,9 @@ pub fn in_order<I: Send, O: Send, E>(
 /// allocates, and a block's work beyond.
 const A_THREADS_ROOM: usize = 80 << 20;
 
-fn is_room(bytes: usize) -> bool {
+/// Would the system give so many bytes? They are given back at once: whoever asks takes them next.
+#[must_use]
+pub fn is_room(bytes: usize) -> bool {
     let mut room: Vec<u8> = vec![];
     std::hint::black_box(room.try_reserve_exact(bytes)).is_ok()
 }

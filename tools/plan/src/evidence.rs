@@ -73,8 +73,8 @@ impl Evidence {
         let own: Vec<&Trial> = self.trials.iter().filter(|one| one.recipe == *recipe).map(|one| &one.found).collect();
         let known = if own.is_empty() { of_model } else { of_model.with(&Known::of(own.iter().copied())) };
         // What differs from run to run is of one run, however many trials there were.
-        let relative = |one: &Tried| one.found.run.scaled(1.0 / one.found.total.value.max(f64::MIN_POSITIVE));
-        let runs = self.trials.iter().map(relative).fold(Spread::default(), Spread::plus);
+        let runs =
+            self.trials.iter().map(|one| one.found.relative(one.found.run)).fold(Spread::default(), Spread::plus);
         let run = Spread { variance: runs.variance / self.trials.len().max(1) as f64, ..runs };
         Estimate { value: known.value, spread: known.doubt.plus(run).scaled(known.value).plus(model.lumps(recipe)) }
     }
@@ -105,10 +105,13 @@ impl Known {
     fn of<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Self {
         let trials: Vec<&Trial> = trials.into_iter().collect();
         let n = trials.len().max(1) as f64;
-        let relative = |trial: &&Trial| trial.total.spread.scaled(1.0 / trial.total.value.max(f64::MIN_POSITIVE));
         Self {
             value: trials.iter().map(|trial| trial.total.value).sum::<f64>() / n,
-            doubt: trials.iter().map(relative).fold(Spread::default(), Spread::plus).scaled(1.0 / n),
+            doubt: trials
+                .iter()
+                .map(|trial| trial.relative(trial.total.spread))
+                .fold(Spread::default(), Spread::plus)
+                .scaled(1.0 / n),
         }
     }
 

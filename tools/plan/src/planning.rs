@@ -39,7 +39,9 @@ pub struct Plan {
     pub error: Estimate,
     /// The same in parts.
     pub parts: Parts,
-    /// Does it do, even at the upper bound?
+    /// What that square is at most, with the chance that was wanted and the luck of several tries allowed for.
+    pub bound: f64,
+    /// Is that no more than was wanted?
     pub holds: bool,
     /// What came next.
     pub rival: Option<Rival>,
@@ -101,7 +103,8 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
         }
         effort.photons *= 4;
     }
-    let does = |error: &Estimate| error.upper(wanted.surer()) <= wanted.error * wanted.error;
+    let bound = |error: &Estimate| error.upper(wanted.surer());
+    let does = |error: &Estimate| bound(error) <= wanted.error * wanted.error;
     let mut evidence = Evidence::new(model);
     let mut trials: Vec<Tried> = vec![];
     for trial in 1..=TRIALS {
@@ -134,6 +137,7 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
             choice,
             error,
             parts: model.predict(&choice.recipe),
+            bound: bound(&error),
             holds: does(&error),
             rival: rival(&best, &choice.recipe),
             model,

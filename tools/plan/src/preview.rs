@@ -4,12 +4,11 @@
 //! all or nothing. Of some hundred pixels chosen alike, none or two are such, and what they say is off by that. They are found
 //! with one eye ray for each pixel, and chosen more often than others.
 
+use crate::rays::Design;
 use crate::task::Task;
 use pm_light::transport::{GatherRays, PixelCaster, RayCounts};
 use pm_orders::VisiblePoints;
 use pm_pictures::REL_MSE_EPSILON;
-
-use crate::rays::Design;
 
 /// How often each pixel shall be chosen, relative to others.
 pub(crate) struct Preview {

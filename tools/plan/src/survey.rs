@@ -90,7 +90,8 @@ impl Survey {
         let pixels = &Pixels::choose(preview, effort.pixels, task.seed);
         let share = pixels.len() as f64 / task.pixels();
         let mut survey = Self { photons: effort.photons, share, ..Self::default() };
-        let soft = Asked::soft(task, pixels, effort, &mut survey.times)?;
+        let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(2, m), false));
+        let soft = Asked::soft(task, pixels, effort, &mut traced, &mut survey.times)?;
         if soft.sets[0].queries.is_empty() && soft.sets[0].light.iter().flatten().all(|&x| x == 0.0) {
             return Err(PlanError::NothingSeen);
         }
@@ -106,13 +107,18 @@ impl Survey {
         let weights = Weights::of(&truth).times(&pixels.stand_for);
         survey.soft = soft.layer(&weights, &KS);
         survey.caustics = caustics.map(|asked| asked.layer(&weights, &[Times::CAUSTICS_K]));
-        survey.compare_rays(task, pixels, &weights)?;
+        survey.compare_rays(task, pixels, &mut traced[0], &weights)?;
         Ok(survey)
     }
 
     /// Measures what other numbers of rays do, and what they cost.
-    fn compare_rays(&mut self, task: &Task<'_>, pixels: &Pixels, weights: &Weights) -> Result<(), PlanError> {
-        let mut traced = Traced::new(task.scene, task.seed_of(2, 0), false);
+    fn compare_rays(
+        &mut self,
+        task: &Task<'_>,
+        pixels: &Pixels,
+        traced: &mut Traced<'_>,
+        weights: &Weights,
+    ) -> Result<(), PlanError> {
         let map = Map::build(traced.first(self.photons).ok_or(PlanError::Dark)?, KS[USUAL_K])?;
         let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
         let pilot = |design: Design| {
@@ -137,15 +143,20 @@ impl Survey {
 }
 
 impl Asked {
-    fn soft(task: &Task<'_>, pixels: &Pixels, effort: Effort, times: &mut Times) -> Result<Self, PlanError> {
+    fn soft(
+        task: &Task<'_>,
+        pixels: &Pixels,
+        effort: Effort,
+        traced: &mut [Traced<'_>; 2],
+        times: &mut Times,
+    ) -> Result<Self, PlanError> {
         let options = |r| PILOT.soft(task.seed_of(1, r), task.caustics > 0);
         let sets = [0, 1].map(|r| cast(task.scene, task.camera, &pixels.at, options(r)));
         let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
-        let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(2, m), false));
-        for traced in &mut traced {
+        for traced in traced.iter_mut() {
             traced.first(effort.photons).ok_or(PlanError::Dark)?;
         }
-        let asked = Self::ask(sets, asking, &mut traced, effort.photons, &KS)?;
+        let asked = Self::ask(sets, asking, traced, effort.photons, &KS)?;
         // What takes how long is measured where nothing else is done: the way it will be done.
         times.photon = timed_tracing(task, effort.photons, false)?;
         times.of = effort.photons;

@@ -1,11 +1,10 @@
 //! What is to be planned, and why there may be no plan.
 
+use crate::traffic::{SearchBytes, Trouble};
 use pm_formats::Material;
 use pm_light::scene::{Camera, Scene};
 use pm_maps::BuildError;
 use pm_random::Random;
-
-use crate::traffic::{SearchBytes, Trouble};
 
 /// What is to be planned.
 pub struct Task<'a> {

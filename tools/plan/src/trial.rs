@@ -52,6 +52,11 @@ impl Replicate {
 const MOST_REFERENCE: u64 = 1_000_000;
 
 impl Trial {
+    /// A spread of it, relative to its error.
+    pub(crate) fn relative(&self, spread: Spread) -> Spread {
+        spread.scaled(1.0 / self.total.value.max(f64::MIN_POSITIVE))
+    }
+
     /// Makes some pixels of the picture twice and compares them.
     pub(crate) fn run(
         task: &Task<'_>,

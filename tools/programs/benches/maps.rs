@@ -9,27 +9,19 @@
 
 mod common;
 
-use common::{cpu_time, median, morton, surface_point};
+use common::{Room, cpu_time, median, morton};
 use pm_formats::Photon;
 use pm_maps::{
     AccessObserver, AnyMap, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest,
     PageForm, PhotonMap, Search, SearchReads, VvhTree, WideTree,
 };
-use pm_random::Random;
 use std::hint::black_box;
 
 const K: usize = 100;
 
 fn main() {
-    let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
-    let number = |at: usize, default: usize| numbers.get(at).copied().unwrap_or(default);
-    let (queries, rounds, count) = (number(0, 20_000), number(1, 7), number(2, 100_000));
-    let mut random = Random::new(&[1]);
-    let up = [0.0, 1.0, 0.0];
-    let photons: Vec<Photon> = (0..count)
-        .map(|_| Photon::new(surface_point(&mut random), [1.0; 3], [0.5; 3], up, up).expect("a plain photon"))
-        .collect();
-    let scattered: Vec<[f32; 3]> = (0..queries).map(|_| surface_point(&mut random)).collect();
+    let Room { queries, rounds, photons, scattered } = Room::asked_for();
+    let count = photons.len();
     // As dense as the queries of a whole picture: all of them in a small part of the room.
     let mut sorted: Vec<[f32; 3]> = scattered.iter().map(|p| p.map(|x| 0.45 + 0.1 * x)).map(onto_wall).collect();
     sorted.sort_by_key(morton);

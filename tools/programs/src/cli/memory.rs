@@ -1,6 +1,7 @@
 //! Memory that is asked for before work begins: a refusal is then an error as any other, and no abort in the middle.
 
 use anyhow::bail;
+use pm_parallel::is_room;
 use pm_size::Bytes;
 
 /// What any program takes besides: a block in every form on its way, what zstd knows of it, buffers of files.
@@ -12,7 +13,7 @@ const WORK: u64 = 8 << 20;
 /// # Errors
 /// If it would not.
 pub fn room_for(bytes: u64, what: &str) -> anyhow::Result<()> {
-    if !is_room(bytes.saturating_add(WORK)) {
+    if !usize::try_from(bytes.saturating_add(WORK)).is_ok_and(is_room) {
         bail!("not enough memory: {what} takes {}", Bytes(bytes));
     }
     Ok(())
@@ -31,13 +32,7 @@ pub(super) fn room_to_begin() -> anyhow::Result<()> {
 
 /// Sees whether what is small would find its place still.
 pub(super) fn is_room_for_work() -> bool {
-    is_room(WORK)
-}
-
-fn is_room(bytes: u64) -> bool {
-    let mut room: Vec<u8> = vec![];
-    let reserved = usize::try_from(bytes).ok().and_then(|bytes| room.try_reserve_exact(bytes).ok());
-    std::hint::black_box(reserved).is_some()
+    is_room(WORK as usize)
 }
 
 #[cfg(test)]

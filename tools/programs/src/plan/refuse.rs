@@ -42,7 +42,7 @@ pub(super) fn error_out_of_reach(
 ) -> anyhow::Error {
     let wanted = percent(args.error);
     if let Some(plan) = tried {
-        let upper = percent(root(plan.error.upper(args.confidence)));
+        let upper = percent(root(plan.bound));
         return refusal(format!(
             "--error {wanted}: what should do does not when it is tried: {} at {} (bound {upper} at {} confidence); the pilots see \
              too little of what is rare here; try --error {upper}, or more --pixels",
@@ -66,10 +66,17 @@ pub(super) fn error_out_of_reach(
     }
 }
 
-/// The bound on the error of another recipe, as far above it as that of the plan is.
-fn at_most(plan: &Plan, args: &Args, other: &Choice) -> f64 {
-    let margin = plan.error.upper(args.confidence) / plan.error.value.max(f64::MIN_POSITIVE);
-    root(other.parts.total().value * margin)
+/// Refuses with the nearest that can be had `with` less; its bound is as far above its error as that of the plan is.
+fn nearest(needed: &str, with: &str, plan: &Plan, other: Option<Choice>) -> anyhow::Error {
+    let Some(near) = other else {
+        return refusal(format!("{needed}; nothing that is planned with does {with}"));
+    };
+    let margin = plan.bound / plan.error.value.max(f64::MIN_POSITIVE);
+    refusal(format!(
+        "{needed}; nearest {with} is an error of at most {}, by {}",
+        percent(root(near.parts.total().value * margin)),
+        super::report::recipe(&near.recipe)
+    ))
 }
 
 /// The order that fetches least fetches too much.
@@ -90,14 +97,7 @@ pub(super) fn too_much(
     );
     // What fewer rays fetch, by the share that these do.
     let budget = plan.choice.cost * bandwidth / upper;
-    match nearest_in(&plan.model, pixels, budget, caustics) {
-        Some(near) => refusal(format!(
-            "{needed}; nearest with that is an error of at most {}, by {}",
-            percent(at_most(plan, args, &near)),
-            super::report::recipe(&near.recipe)
-        )),
-        None => refusal(format!("{needed}; nothing that is planned with does with that")),
-    }
+    nearest(&needed, "with that", plan, nearest_in(&plan.model, pixels, budget, caustics))
 }
 
 /// The cheapest recipe takes too long.
@@ -113,12 +113,5 @@ pub(super) fn too_slow(
     let needed = format!("--seconds {seconds}: an error of {} takes {upper:.1} s", percent(args.error));
     // The model's seconds are those of its parts; the pilots say what they come to in pipes.
     let budget = seconds * plan.choice.cost / time.total.value;
-    match nearest_in(&plan.model, pixels, budget, caustics) {
-        Some(near) => refusal(format!(
-            "{needed}; nearest in that time is an error of at most {}, by {}",
-            percent(at_most(plan, args, &near)),
-            super::report::recipe(&near.recipe)
-        )),
-        None => refusal(format!("{needed}; nothing that is planned with is done in that time")),
-    }
+    nearest(&needed, "in that time", plan, nearest_in(&plan.model, pixels, budget, caustics))
 }

@@ -1,8 +1,8 @@
 //! Lines of addresses, with or without sizes and kinds, between commas, semicolons or tabs.
 //!
 //! A first line with a column `address` names the columns (`address`, `size`, `kind`; others are passed over). Without
-//! one they are these three, or those given. What is asked for as `key` instead of an address is a text of any kind. Numbers are decimal, or hexadecimal with `0x`; lines that begin with `#` are
-//! comments, but the first one may name the columns.
+//! one they are these three, or those given. What is asked for as `key` instead of an address is a text of any kind. Numbers are
+//! decimal, or hexadecimal with `0x`; lines that begin with `#` are comments, but the first one may name the columns.
 
 mod columns;
 
