@@ -8,13 +8,15 @@
 #![allow(clippy::print_stdout)]
 
 mod common;
+mod room;
 
-use common::{Room, cpu_time, median, morton};
+use common::{cpu_time, median, morton};
 use pm_formats::Photon;
 use pm_maps::{
     AccessObserver, AnyMap, Blind, BucketKdTree, Carry, Cells, Grid, KdTree, KdbOptions, KdbTree, Layout, Nearest,
     PageForm, PhotonMap, Search, SearchReads, VvhTree, WideTree,
 };
+use room::Room;
 use std::hint::black_box;
 
 const K: usize = 100;

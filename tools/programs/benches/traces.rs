@@ -8,11 +8,13 @@
 #![allow(clippy::print_stdout)]
 
 mod common;
+mod room;
 
-use common::{Room, cpu_time, median, morton};
+use common::{cpu_time, median, morton};
 use pm_formats::trace::{Access, BlockEncoder, Region, TraceSink, decode_searches};
 use pm_formats::{Block, BlockMeta};
 use pm_maps::{AnyMap, Nearest, Search, SearchReads, Setting, structures};
+use room::Room;
 use std::hint::black_box;
 
 const K: usize = 100;
