@@ -9,6 +9,7 @@ mod colours;
 mod draw;
 mod frontier;
 mod look;
+mod parts;
 mod read;
 mod selection;
 mod svg;
@@ -17,7 +18,11 @@ pub use axis::{Axis, Scale};
 pub use colours::dark_style;
 pub use frontier::unbeaten;
 pub use look::Look;
+pub use parts::MOST_SERIES;
+pub(crate) use parts::part_title;
 pub use selection::Selection;
+
+use std::sync::Arc;
 
 /// A point of a series, in the units of the axes; on an axis of words, the number of the word.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,11 +47,16 @@ pub struct Series {
 impl Plot {
     /// The number by which a series to compare with is marked: that of ours that it belongs to, if there is one.
     pub(crate) fn mark_of(&self, reference: usize) -> usize {
+        self.owner(reference).unwrap_or(reference)
+    }
+
+    /// The number of the series of ours that one to compare with belongs to.
+    pub(crate) fn owner(&self, reference: usize) -> Option<usize> {
         let name = &self.reference[reference].name;
         let is_its = |ours: &Series| {
             *name == ours.name || name.strip_prefix(&ours.name).is_some_and(|rest| rest.starts_with(" ("))
         };
-        self.series.iter().position(is_its).unwrap_or(reference)
+        self.series.iter().position(is_its)
     }
 }
 
@@ -61,4 +71,6 @@ pub struct Plot {
     pub series: Vec<Series>,
     /// Points to compare with, drawn in grey.
     pub reference: Vec<Series>,
+    /// The plot that this is a part of, whose axes and frontier it has.
+    pub(crate) whole: Option<Arc<Plot>>,
 }

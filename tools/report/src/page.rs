@@ -7,6 +7,7 @@
 //! title = "What order costs"
 //! folder = ".."            # files are named from this folder, seen from the description's [default: its own]
 //! command = "make run"     # makes the tables, where a section or block names no other
+//! about = { name = "The paper", address = "https://example.org" }   # below the intro: the only link out of the page
 //! intro = "Scanline fetches {{ scan / hilbert | ,.0f }} times as much."
 //!
 //! [numbers]                # short names for numbers: row(FILE, COLUMN=VALUE, ...).COLUMN, of the one row that fits
@@ -21,7 +22,7 @@
 //! heading = "Caches"       # also: id, command
 //! text = "Markdown, with {{ row('out/all.csv', order='scanline').fetches | , }} and links such as [this](#caches)."
 //!
-//! [[section.chart]]        # all but tables, x and y may be left out
+//! [[section.chart]]        # all but tables, x and y may be left out; more than seven series become several drawings
 //! title = "Fetches and size"
 //! tables = ["out/sizes.csv"]
 //! x = "cache_bytes"
@@ -32,6 +33,7 @@
 //! reference = ["scripts/paper.csv"]
 //! x_scale = "log2"         # auto, linear, log2, log10; so y_scale
 //! points = true            # and frontier, x_label, y_label, text, id, command
+//! folded = true            # behind its title until that is clicked; tables too
 //! data = ["fetches"]       # further columns for the data below it
 //!
 //! [[section.table]]        # all but tables may be left out
@@ -79,5 +81,5 @@ mod written;
 
 pub use bars::{Bar, Bars};
 pub use blocks::{ChartBlock, Join, Paragraph, PictureBlock, Shown, ShownColumn, TableBlock};
-pub use description::{Block, Description, Section};
+pub use description::{About, Block, Description, Section};
 pub use number_format::NumberFormat;

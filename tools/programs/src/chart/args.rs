@@ -61,7 +61,7 @@ pub struct Args {
     /// What stands beside the axis up [default: the column's name]
     #[arg(long, value_name = "TEXT", hide_short_help = true)]
     pub(super) y_label: Option<String>,
-    /// Width and height in pixels
+    /// Width and height in pixels; of each drawing, where more than seven series become several
     #[arg(long, value_name = "WxH", default_value = "880x520", value_parser = size, hide_short_help = true)]
     pub(super) size: (u32, u32),
     /// Write the page that this TOML file describes

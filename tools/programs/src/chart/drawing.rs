@@ -27,7 +27,7 @@ pub(super) fn svg(args: &Args) -> anyhow::Result<String> {
     plot.y.label = args.y_label.clone().unwrap_or(plot.y.label);
     let look =
         Look { title: args.title.clone(), size: args.size, lines: !args.points, frontier: args.frontier, legend: true };
-    Ok(plot.svg(&look))
+    Ok(plot.picture(&look))
 }
 
 fn sheets(paths: &[PathBuf]) -> anyhow::Result<Vec<Arc<Sheet>>> {

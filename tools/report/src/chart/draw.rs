@@ -6,7 +6,7 @@ mod ruler;
 mod series;
 
 use super::colours::{GREY, GRID, INK, PAPER, of_series};
-use super::{Axis, Look, Plot, Point};
+use super::{Axis, Look, MOST_SERIES, Plot, Point};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -21,18 +21,24 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ruler, Ruler>>
 /// What came of drawing.
 pub(super) type Drawn = Result<(), Box<dyn Error>>;
 
-/// Series that are named where they end; more have a list of names.
-const MOST_LABELLED: usize = 7;
+/// What stands beside the names of series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Names {
+    /// A key each, with line and mark; series to compare with have names too.
+    WithKeys,
+    /// A line each from where the series ends.
+    AtEnds,
+}
 
 /// Height of a line of text in pixels; the library's letters are 1.24 times smaller.
 const LETTER: i32 = 16;
 
 impl Plot {
-    /// Draws all of it.
-    pub(super) fn draw(&self, root: &Area<'_>, look: &Look) -> Drawn {
+    /// Draws all of it. The names beside it have keys, or are joined to where their series end.
+    pub(super) fn draw(&self, root: &Area<'_>, look: &Look, names: Names) -> Drawn {
         root.fill(&PAPER).map_err(own)?;
         let (width, height) = (i32::try_from(look.size.0)?, i32::try_from(look.size.1)?);
-        let longest = self.names().map(letters).max().unwrap_or(0);
+        let longest = self.names(names).map(letters).max().unwrap_or(0);
         let legend = if look.legend { longest.saturating_add(44).min(width / 2) } else { 0 };
         let (left, right) = root.split_horizontally(width - legend);
 
@@ -48,14 +54,15 @@ impl Plot {
         }
         if look.legend {
             let ends = if look.lines { self.ends(&chart) } else { vec![] };
-            self.draw_legend(&right, height, look.lines, ends)?;
+            self.draw_legend(&right, height, look.lines, (names, ends))?;
         }
         root.present().map_err(own)
     }
 
-    /// The names of all series, those of the reference last.
-    fn names(&self) -> impl Iterator<Item = &str> {
-        self.series.iter().chain(&self.reference).map(|series| series.name.as_str())
+    /// The names beside it, those of the reference last.
+    fn names(&self, names: Names) -> impl Iterator<Item = &str> {
+        let reference = if names == Names::WithKeys { &*self.reference } else { &[] };
+        self.series.iter().chain(reference).map(|series| series.name.as_str())
     }
 
     /// Draws the axes with what stands beside them, in an area of this width and height.
@@ -104,7 +111,7 @@ impl Plot {
 
     /// How far down each series ends, in pixels; of many there is no room for that.
     fn ends(&self, chart: &Chart<'_, '_>) -> Vec<i32> {
-        if self.series.len() > MOST_LABELLED {
+        if self.series.len() > MOST_SERIES {
             return vec![];
         }
         let area = chart.plotting_area();
@@ -113,8 +120,9 @@ impl Plot {
     }
 
     /// The ends of both axes. Intervals lie within the picture, unless they reach to where a logarithm has no place.
-    fn extent(&self) -> ((f64, f64), (f64, f64)) {
-        let points = || self.series.iter().chain(&self.reference).flat_map(|series| &series.points);
+    pub(super) fn extent(&self) -> ((f64, f64), (f64, f64)) {
+        let whole = self.whole.as_deref().unwrap_or(self);
+        let points = || whole.series.iter().chain(&whole.reference).flat_map(|series| &series.points);
         let y = &self.y;
         let bars = |point: &Point| {
             let (low, high) = interval(point);

@@ -23,10 +23,11 @@ pub fn unbeaten(points: &[(f64, f64)]) -> Vec<bool> {
 
 impl Plot {
     /// The frontier: the points of all series that no other beats, as one series from left to right; of equal points the
-    /// first.
+    /// first. A part has that of the whole.
     #[must_use]
     pub fn frontier(&self) -> Series {
-        let all: Vec<Point> = self.series.iter().flat_map(|series| series.points.iter().copied()).collect();
+        let whole = self.whole.as_deref().unwrap_or(self);
+        let all: Vec<Point> = whole.series.iter().flat_map(|series| series.points.iter().copied()).collect();
         let places: Vec<(f64, f64)> = all.iter().map(|point| (point.x, point.y)).collect();
         let best = all.into_iter().zip(unbeaten(&places)).filter(|(_, best)| *best);
         let mut points: Vec<Point> = best.map(|(point, _)| point).collect();
@@ -56,6 +57,7 @@ mod tests {
                 Series { name: "b".into(), points: points(&ALL[3..]) },
             ],
             reference: vec![],
+            whole: None,
         };
         // By brute force: nobody else is as good on both axes.
         let beaten = |p: (f64, f64)| ALL.iter().any(|&q| q != p && q.0 <= p.0 && q.1 <= p.1);

@@ -64,7 +64,7 @@ impl Plot {
             let all = series.iter_mut().chain(&mut reference);
             all.for_each(|series| series.points.sort_by(|a, b| a.x.total_cmp(&b.x)));
         }
-        Ok(Self { x, y, series, reference })
+        Ok(Self { x, y, series, reference, whole: None })
     }
 }
 

@@ -15,6 +15,9 @@ pub struct ChartBlock {
     /// What is to be said of it, in Markdown.
     #[serde(default)]
     pub text: String,
+    /// Behind its title, until that is clicked?
+    #[serde(default)]
+    pub folded: bool,
     /// By which links reach it.
     #[serde(default)]
     pub id: Option<String>,
@@ -81,6 +84,9 @@ pub struct TableBlock {
     /// What is to be said of it, in Markdown.
     #[serde(default)]
     pub text: String,
+    /// Behind its title, until that is clicked?
+    #[serde(default)]
+    pub folded: bool,
     /// By which links reach it.
     #[serde(default)]
     pub id: Option<String>,

@@ -4,7 +4,7 @@ use super::ChartBlock;
 use super::below::{self, FOUND};
 use super::html::safe;
 use crate::ReportError;
-use crate::chart::{Look, Plot, Selection};
+use crate::chart::{Look, Plot, Selection, part_title};
 use crate::sheet::{Sheet, Sheets, number};
 use minijinja::{Value, context};
 
@@ -26,24 +26,42 @@ pub(super) fn block(
     sheets: &Sheets,
 ) -> Result<Value, ReportError> {
     let data = data(block, sheets)?;
-    let plot = plot(block, sheets)?;
-    let look =
-        |size| Look { title: title.clone(), size, lines: !block.points, frontier: block.frontier, legend: false };
-    let drawings = [(WIDE, "wide"), (NARROW, "narrow")]
-        .map(|(size, class)| safe(plot.svg_in_page(&look(size), class).trim_end().to_owned()));
-    let keys = plot.keys(&look(WIDE));
-    let keys = if keys.len() > 1 || !block.by.is_empty() { keys } else { vec![] };
-    let legend = keys.into_iter().map(|(name, key)| context! { name, key => safe(key.replace('\n', "")) });
+    let plots = plot(block, sheets)?.parts();
+    let count = plots.len();
+    let parts = plots.iter().enumerate().map(|(number, plot)| part(plot, block, part_title(&title, number, count)));
+    let parts: Vec<Value> = parts.collect();
     Ok(context! {
         template => "chart.html",
         id => block.id.as_deref(),
         title,
         text,
-        drawings => drawings.to_vec(),
-        legend => legend.collect::<Vec<_>>(),
+        folded => block.folded,
+        parts,
         command,
         data => below::data(&data, &columns(block, &data)?, &block.tables[0]),
     })
+}
+
+/// A drawing, wide and narrow, with its legend; series that have their names at the ends of their lines need it on a phone only.
+fn part(plot: &Plot, block: &ChartBlock, title: String) -> Value {
+    let several = plot.series.len() + plot.reference.len() + usize::from(block.frontier) > 1;
+    let look = |size, legend| Look {
+        title: title.clone(),
+        size,
+        lines: !block.points,
+        frontier: block.frontier,
+        legend: legend && (several || !block.by.is_empty()),
+    };
+    let wide = look(WIDE, true);
+    let drawings = [(&wide, "wide"), (&look(NARROW, false), "narrow")]
+        .map(|(look, class)| safe(plot.svg_in_page(look, class).trim_end().to_owned()));
+    let keys = if wide.legend { plot.keys(&wide) } else { vec![] };
+    let named = if plot.has_named_ends(&wide) { plot.series.len() } else { 0 };
+    let legend = keys.into_iter().enumerate().map(|(number, (name, key))| {
+        let ended = number < named;
+        context! { name, key => safe(key.replace('\n', "")), ended }
+    });
+    context! { drawings => drawings.to_vec(), legend => legend.collect::<Vec<_>>() }
 }
 
 fn plot(block: &ChartBlock, sheets: &Sheets) -> Result<Plot, ReportError> {

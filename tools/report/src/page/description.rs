@@ -3,6 +3,7 @@
 use super::bars::Bars;
 use super::blocks::{ChartBlock, Paragraph, PictureBlock, Shown, TableBlock};
 use crate::ReportError;
+use minijinja::{Value, context};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -20,6 +21,9 @@ pub struct Description {
     /// What stands above all else.
     #[serde(default)]
     pub bars: Option<Bars>,
+    /// What it is about, with an address: the one link of a page that leads out of it.
+    #[serde(default)]
+    pub about: Option<About>,
     /// The folder that files are named from, seen from the description's own.
     #[serde(default)]
     pub folder: PathBuf,
@@ -38,6 +42,32 @@ pub struct Description {
     /// The description as it was read, for the lines of errors.
     #[serde(skip)]
     pub(super) toml: String,
+}
+
+/// What a page is about.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct About {
+    /// What it is called.
+    pub name: String,
+    /// Where it is: an address that begins with `https://`.
+    pub address: String,
+}
+
+impl About {
+    /// What the template needs.
+    ///
+    /// # Errors
+    /// If the address is of another kind: a browser would run or load what it names.
+    pub(super) fn checked(&self) -> Result<Value, ReportError> {
+        let Self { name, address } = self;
+        if !address.starts_with("https://") || address.contains(|c: char| c.is_whitespace() || c.is_control()) {
+            return Err(ReportError::asked(format!(
+                "`{address}` as an address: it begins with https:// and has no blanks"
+            )));
+        }
+        Ok(context! { name => &**name, address => &**address })
+    }
 }
 
 fn english() -> String {

@@ -29,6 +29,7 @@ pub(super) fn block(
         id => block.id.as_deref(),
         title,
         text,
+        folded => block.folded,
         columns => columns.iter().map(columns::Column::head).collect::<Vec<_>>(),
         rows,
         command,

@@ -2,7 +2,7 @@
 
 use super::html::{render, safe};
 use super::written::evaluate;
-use super::{Block, Description, Section, bars, chart, markdown, picture, table};
+use super::{About, Block, Description, Section, bars, chart, markdown, picture, table};
 use crate::ReportError;
 use crate::chart::dark_style;
 use crate::expression::{Definition, Evaluator};
@@ -46,6 +46,7 @@ impl Writer<'_> {
         let intro = self.text(&page.intro, None)?;
         let bars =
             page.bars.as_ref().map(|bars| bars::bars(bars, &self.evaluator, |text| self.plain(text))).transpose()?;
+        let about = page.about.as_ref().map(About::checked).transpose()?;
         let (ids, taken) = page.ids()?;
         let mut sections = vec![];
         for (section, id) in page.section.iter().zip(ids) {
@@ -64,6 +65,7 @@ impl Writer<'_> {
                 style => safe(format!("{STYLE}{}", dark_style())),
                 bars => bars.unwrap_or_else(|| Value::from(())),
                 intro,
+                about => about.unwrap_or_else(|| Value::from(())),
                 sections,
             },
         ))

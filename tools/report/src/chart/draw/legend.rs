@@ -1,24 +1,36 @@
 //! The legend beside a plot.
 
-use super::{Area, Drawn, LETTER, draw_key, own};
+use super::{Area, Drawn, LETTER, Names, draw_key, own};
 use crate::chart::Plot;
 use crate::chart::colours::{GREY, INK, of_series};
 use plotters::prelude::*;
 
 impl Plot {
-    /// Draws a key and a name for each series, however many there are, in this height: where the series end, so far down, or
-    /// below one another.
-    pub(super) fn draw_legend(&self, area: &Area<'_>, height: i32, lines: bool, ends: Vec<i32>) -> Drawn {
-        let names: Vec<&str> = self.names().collect();
+    /// Draws a name for each series, however many there are, in this height: where the series end, so far down, or below one
+    /// another; with a key each, or joined to its end.
+    pub(super) fn draw_legend(
+        &self,
+        area: &Area<'_>,
+        height: i32,
+        lines: bool,
+        (kind, ends): (Names, Vec<i32>),
+    ) -> Drawn {
+        let names: Vec<&str> = self.names(kind).collect();
         let rows = i32::try_from(names.len().max(1))?;
         let step = ((height - 48) / rows).clamp(1, LETTER + 4);
-        let places = apart(ends, names.len(), step, (36, height - 12));
+        let places = apart(ends.clone(), names.len(), step, (36, height - 12));
         for (row, (name, at)) in names.iter().zip(places).enumerate() {
             let (number, colour, lines) = match row.checked_sub(self.series.len()) {
                 Some(reference) => (self.mark_of(reference), GREY, false),
                 None => (row, of_series(row), lines),
             };
-            draw_key(area, at, number, colour, lines)?;
+            match ends.get(row).filter(|_| kind == Names::AtEnds) {
+                Some(&end) => {
+                    let joined = vec![(0, end), (10, end), (20, at), (28, at)];
+                    area.draw(&PathElement::new(joined, colour.stroke_width(1))).map_err(own)?;
+                }
+                None => draw_key(area, at, number, colour, lines)?,
+            }
             let style = ("sans-serif", LETTER.min(step)).into_font().color(&INK);
             area.draw(&Text::new((*name).to_owned(), (32, at - LETTER.min(step) / 2), style)).map_err(own)?;
         }
