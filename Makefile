@@ -11,7 +11,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage plan-coverage need charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz same-bytes licences bench later bench-traces man options test-cluster install dist clean clean-streams
+.PHONY: help programs run accuracy pictures coverage plan-coverage need charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz same-bytes licences advisories bench later bench-traces man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)
@@ -142,6 +142,9 @@ same-bytes: programs ## Small pipes with builds for debugging, for any and for t
 
 licences: ## What may be built upon: licences, sources, versions (needs cargo-deny)
 	$(CARGO) deny --config scripts/deny.toml check licenses bans sources
+
+advisories: ## Known faults of what is built upon, by the RustSec database (needs cargo-deny and the network)
+	$(CARGO) deny --config scripts/deny.toml check advisories
 
 man: programs ## Manual pages of all programs in out/man
 	mkdir -p out/man

@@ -4,6 +4,7 @@
 
 mod accuracy;
 mod approximate;
+mod archive;
 mod charts;
 mod circles;
 mod cli;

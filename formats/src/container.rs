@@ -17,6 +17,7 @@ pub use block_header::MAX_BLOCK;
 pub use end::{End, Number, StageReport};
 pub use header::{Bounds, Header, Material};
 pub use kind::StreamKind;
+pub(crate) use packing::{compress_long, content_size, decompress};
 pub use reader::BlockReader;
 pub use section::{BlockMeta, Section};
 pub use writer::BlockWriter;

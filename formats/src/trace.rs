@@ -1,6 +1,7 @@
 //! Traces: which memory each search touched, coded by search and not as addresses spelled out.
 
 mod access;
+mod archive;
 mod bits;
 mod decode;
 mod encode;

@@ -17,9 +17,13 @@ const STREAMS: [(&str, u64, &str); 5] = [
     ("windows.pmt", 53, "cb3eed7fb799cb3d75116cb46ce817d4"),
 ];
 
-/// Regions that are coded together, kept of version 2 only.
-const STREAMS_OF_VERSION_2: [(&str, u64, &str); 2] =
-    [("apart.pmt", 95, "f492ed74e02a3fdd198bad03ff10dfd1"), ("turns.pmt", 95, "f5025c3c9fc0437901565e0c4da10cee")];
+/// Regions that are coded together, and walks that are apart, in their order and sorted: kept of version 2 only.
+const STREAMS_OF_VERSION_2: [(&str, u64, &str); 4] = [
+    ("apart.pmt", 95, "f492ed74e02a3fdd198bad03ff10dfd1"),
+    ("turns.pmt", 95, "f5025c3c9fc0437901565e0c4da10cee"),
+    ("walks.pmt", 4616, "fab8562fa166365121bc82b4f1295549"),
+    ("walks-sorted.pmt", 4616, "fab8562fa166365121bc82b4f1295549"),
+];
 
 fn kept(version: u16, name: &str) -> Vec<u8> {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/golden", &format!("v{version}-{name}")].iter().collect();

@@ -51,13 +51,14 @@ class Header:
 
 @dataclass
 class Block:
-    """A run of records of one batch, decompressed."""
+    """A run of records of one batch, decompressed; of a trace's walks that are kept, as they stand and for so many bytes."""
 
     section: int
     batch: int
     warm_up: bool
     records: int
     payload: bytes = field(repr=False)
+    walks: int | None = None
 
 
 @dataclass
@@ -225,19 +226,21 @@ class Container:
             tag, section, flags, packed, zero, batch, records, raw, stored = struct.unpack_from("<4s4BQ3I", head)
             if tag != b"PMBL" or head[28:32] != struct.pack("<Q", xxh3_64(head[:28]))[:4]:
                 raise DamagedStream("a block's header does not fit its checksum")
-            if section not in (RECORDS, IRRADIANCE_RECORDS, PIXEL_WEIGHTS, END) or flags > 1 or packed > 1 or zero:
+            if section not in (RECORDS, IRRADIANCE_RECORDS, PIXEL_WEIGHTS, END) or flags > 1 or packed > 2 or zero:
                 raise DamagedStream("a block's header makes no sense")
             if max(raw, stored) > MOST_BYTES:
                 raise DamagedStream("a block is larger than any may be")
             payload = self._take(stored, "the stream stops before its end block")
             if struct.unpack_from("<Q", head, 32)[0] != xxh3_64(payload):
                 raise DamagedStream("a block does not fit its checksum")
-            if packed:
+            if packed == 1:
                 try:
                     payload = zstandard.ZstdDecompressor().decompress(payload, max_output_size=raw)
                 except zstandard.ZstdError as error:
                     raise DamagedStream(f"a block cannot be decompressed: {error}") from None
-            if len(payload) != raw:
+            if packed == 2 and (self.kind != "trace" or section != RECORDS):
+                raise DamagedStream("a block that is none of a trace holds walks")
+            if packed < 2 and len(payload) != raw:
                 raise DamagedStream("a block has another length than it says")
             if section == END:
                 self.end, proof = _end(payload, self.version >= 2)
@@ -255,4 +258,4 @@ class Container:
                     raise DamagedStream("its windows are out of order")
                 last = place
             self._proof.append(head)
-            yield Block(section, batch, bool(flags & 1), records, payload)
+            yield Block(section, batch, bool(flags & 1), records, payload, raw if packed == 2 else None)

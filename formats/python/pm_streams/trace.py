@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .archive import unpack
 from .container import DamagedStream
 from .xxh3 import xxh3_128
 
@@ -143,13 +144,14 @@ def _in_turns(plane, count, regions, last):
 
 def decode(block, regions):
     """The accesses of a block, and what its searches add to the digest."""
-    if len(block.payload) < 12:
+    payload = block.payload if block.walks is None else unpack(block.payload, block.walks, block.records, regions)
+    if len(payload) < 12:
         raise DamagedStream("a block does not hold its searches")
-    ends = np.cumsum([12, *struct.unpack_from("<3I", block.payload)]).tolist()
-    if ends[3] > len(block.payload):
+    ends = np.cumsum([12, *struct.unpack_from("<3I", payload)]).tolist()
+    if ends[3] > len(payload):
         raise DamagedStream("a block does not hold its searches")
-    heads, destinations = (_Integers(block.payload[ends[i] : ends[i + 1]]) for i in (0, 1))
-    walks, spelled = block.payload[ends[2] : ends[3]], block.payload[ends[3] :]
+    heads, destinations = (_Integers(payload[ends[i] : ends[i + 1]]) for i in (0, 1))
+    walks, spelled = payload[ends[2] : ends[3]], payload[ends[3] :]
     # Where the region is all addresses the last plane has eight bytes for each access, and no integers of any length.
     of_addresses = any(region.coding == "addresses" for region in regions)
     in_turns = [(number, region) for number, region in enumerate(regions) if region.coding == "in turns"]

@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 import pm_streams
-from pm_streams.container import KINDS
+from pm_streams.container import KINDS, Container
 from pm_streams.xxh3 import xxh3_64
 
 GOLDEN = pathlib.Path(__file__).parents[2] / "tests" / "golden"
@@ -19,10 +19,12 @@ STREAMS = {
     "tiled.pmt": (95, 3065, "56ac14809c3609dff92f8cb580580110"),
     "windows.pmt": (53, 1643, "cb3eed7fb799cb3d75116cb46ce817d4"),
 }
-# Kept of version 2 only: regions that are coded together.
+# Kept of version 2 only: regions that are coded together, and walks that are apart.
 STREAMS_OF_VERSION_2 = {
     "apart.pmt": (95, 1351, "f492ed74e02a3fdd198bad03ff10dfd1"),
     "turns.pmt": (95, 4012, "f5025c3c9fc0437901565e0c4da10cee"),
+    "walks.pmt": (4616, 142689, "fab8562fa166365121bc82b4f1295549"),
+    "walks-sorted.pmt": (4616, 142689, "fab8562fa166365121bc82b4f1295549"),
 }
 
 
@@ -93,6 +95,20 @@ class Golden(unittest.TestCase):
                 for stream in [without, *([moved] if moved != whole else [])]:
                     with self.assertRaises(pm_streams.DamagedStream, msg=f"{name}, block {at}"):
                         read(io.BytesIO(b"".join(stream)))
+
+    def test_walks_that_are_not_what_they_say(self):
+        for name, kind in (("walks", 0), ("walks-sorted", 1)):
+            stream = Container(str(GOLDEN / f"v2-{name}.pmt"))
+            (block,), regions = list(stream), stream.header.regions
+            data = block.payload
+            unpack = lambda data, length=block.walks: pm_streams.archive.unpack(data, length, block.records, regions)
+            self.assertEqual(len(unpack(data)), block.walks, name)
+            self.assertEqual(data[4 + int.from_bytes(data[:4], "little")], kind)
+            for wrong in (data[:-4], data + b"0000", data[: len(data) // 2]):
+                with self.assertRaises(pm_streams.DamagedStream, msg=name):
+                    unpack(wrong)
+            with self.assertRaises(pm_streams.DamagedStream, msg=name):
+                unpack(data, block.walks - 1)
 
     def test_cut_and_flipped(self):
         data = (GOLDEN / "v2-tiled.pmt").read_bytes()

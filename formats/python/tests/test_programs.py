@@ -40,6 +40,8 @@ class Programs(unittest.TestCase):
             for options in MAPS:
                 self.run_in(folder, f"pm-gather -q map.pmp h.pmq -k 20 --map {options} -o t.pmt")
                 self.agrees(folder, "t.pmt")
+                self.run_in(folder, "pm-view -q --archive t.pmt -o kept.pmt")
+                self.agrees(folder, "kept.pmt")
             # Addresses that nobody laid out, kinds and lengths that change.
             self.run_in(folder, "pm-view -q --export xdin t.pmt -o t.xdin")
             self.run_in(folder, "pm-view -q --import trace t.xdin -o foreign.pmt")

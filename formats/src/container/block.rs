@@ -1,14 +1,10 @@
 //! A block: a run of records of one batch, compressed and checksummed.
 
-use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK};
-use super::packing::{compress, decompress, prepare};
+use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK, Packing};
+use super::packing::{compress, compress_long, decompress, prepare};
 use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
-use zstd::zstd_safe::CParameter;
-
-/// zstd level of blocks that are kept.
-const ARCHIVE_LEVEL: i32 = 19;
 
 /// A block as it stands in a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +13,7 @@ pub struct Block {
     pub section: Section,
     /// What it says of its records.
     pub meta: BlockMeta,
-    compressed: bool,
+    packing: Packing,
     raw_len: u32,
     bytes: Vec<u8>,
 }
@@ -36,22 +32,22 @@ impl Block {
     /// # Errors
     /// As [`encode`](Self::encode).
     pub(crate) fn encode_long(meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        // All of the payload in the window, but for the smallest and the largest that zstd has.
-        let window = payload.len().next_power_of_two().ilog2().clamp(10, 27);
-        let mut compressor = zstd::bulk::Compressor::new(level)?;
-        compressor.set_parameter(CParameter::EnableLongDistanceMatching(true))?;
-        compressor.set_parameter(CParameter::WindowLog(window))?;
-        Self::packed(Section::Records, meta, payload, |payload| compressor.compress(payload))
+        Self::packed(Section::Records, meta, payload, |payload| compress_long(payload, level))
     }
 
-    /// The same block for keeping: as many searches in fewer bytes, read as fast and written much slower.
+    /// A block of a trace whose payload of so many bytes was packed by those who know its walks.
     ///
-    /// # Errors
-    /// [`Error::Invalid`] if its payload is none.
-    pub(crate) fn archived(self) -> Result<Self> {
-        let payload = self.decode().ok_or_else(|| Error::Invalid("a block's payload cannot be decompressed".into()))?;
-        let kept = Self::encode_long(self.meta, &payload, ARCHIVE_LEVEL)?;
-        Ok(if kept.bytes.len() < self.bytes.len() { kept } else { self })
+    /// # Panics
+    /// If the payload is larger than [`MAX_BLOCK`].
+    pub(crate) fn of_walks(meta: BlockMeta, raw_len: usize, bytes: Vec<u8>) -> Self {
+        assert!(raw_len <= MAX_BLOCK, "a block of {raw_len} bytes");
+        let raw_len = u32::try_from(raw_len).expect("MAX_BLOCK fits in 32 bits");
+        Self { section: Section::Records, meta, packing: Packing::Walks, raw_len, bytes }
+    }
+
+    /// What is stored of a payload that was packed so.
+    pub(crate) fn walks(&self) -> Option<&[u8]> {
+        (self.packing == Packing::Walks).then_some(&self.bytes)
     }
 
     pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
@@ -69,9 +65,11 @@ impl Block {
         }
         let raw_len = u32::try_from(payload.len()).expect("MAX_BLOCK fits in 32 bits");
         let packed = pack(payload)?;
-        let compressed = packed.len() < payload.len();
-        let bytes = if compressed { packed } else { payload.to_vec() };
-        Ok(Self { section, meta, compressed, raw_len, bytes })
+        let (packing, bytes) = match packed.len() < payload.len() {
+            true => (Packing::Zstd, packed),
+            false => (Packing::Plain, payload.to_vec()),
+        };
+        Ok(Self { section, meta, packing, raw_len, bytes })
     }
 
     /// Sees whether there is memory to decompress it.
@@ -79,24 +77,26 @@ impl Block {
     /// # Errors
     /// [`Error::Io`] if there is none.
     pub(super) fn check_memory(&self) -> Result<()> {
-        if self.compressed { Ok(prepare()?) } else { Ok(()) }
+        if self.packing == Packing::Plain { Ok(()) } else { Ok(prepare()?) }
     }
 
-    /// The payload, into a buffer of exactly its size; `None` if it does not fit.
+    /// The payload, into a buffer of exactly its size; `None` if it does not fit, or has walks that are packed.
     pub(crate) fn decode_into(&self, payload: &mut [u8]) -> Option<()> {
         if payload.len() != self.raw_len as usize {
             return None;
         }
-        if self.compressed {
-            let len = decompress(&self.bytes, payload).ok()?;
-            (len == payload.len()).then_some(())
-        } else {
-            (self.bytes.len() == payload.len()).then(|| payload.copy_from_slice(&self.bytes))
+        match self.packing {
+            Packing::Plain => (self.bytes.len() == payload.len()).then(|| payload.copy_from_slice(&self.bytes)),
+            Packing::Zstd => (decompress(&self.bytes, payload).ok()? == payload.len()).then_some(()),
+            Packing::Walks => None,
         }
     }
 
-    /// The payload.
+    /// The payload; `None` as from [`decode_into`](Self::decode_into).
     pub(crate) fn decode(&self) -> Option<Vec<u8>> {
+        if self.packing == Packing::Walks {
+            return None;
+        }
         let mut payload = vec![0; self.raw_len as usize];
         self.decode_into(&mut payload)?;
         Some(payload)
@@ -116,9 +116,9 @@ impl Block {
 
     /// The header that stands before [`bytes`](Self::bytes).
     pub(super) fn header(&self) -> [u8; HEADER_BYTES] {
-        let Self { section, meta, compressed, raw_len, .. } = *self;
+        let Self { section, meta, packing, raw_len, .. } = *self;
         let (stored_len, checksum) = (self.bytes.len(), xxh3_64(&self.bytes));
-        BlockHeader { section, meta, compressed, raw_len, stored_len, checksum }.to_bytes()
+        BlockHeader { section, meta, packing, raw_len, stored_len, checksum }.to_bytes()
     }
 
     /// What is stored of the payload.
@@ -134,7 +134,7 @@ impl Block {
         if xxh3_64(&bytes) != header.checksum {
             return Err("a block does not fit its checksum");
         }
-        let BlockHeader { section, meta, compressed, raw_len, .. } = *header;
-        Ok(Self { section, meta, compressed, raw_len, bytes })
+        let BlockHeader { section, meta, packing, raw_len, .. } = *header;
+        Ok(Self { section, meta, packing, raw_len, bytes })
     }
 }

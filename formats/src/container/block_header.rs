@@ -13,13 +13,35 @@ pub const MAX_BLOCK: usize = 1 << 26;
 /// Flag bit: the records are simulated but not counted.
 const FLAG_WARM_UP: u8 = 1;
 
+/// What was done to a block's payload.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    /// Nothing.
+    Plain = 0,
+    /// Compressed by zstd.
+    Zstd = 1,
+    /// Walks of a trace are coded by those before them, the rest is compressed by zstd.
+    Walks = 2,
+}
+
+impl Packing {
+    const fn of(number: u8) -> Option<Self> {
+        match number {
+            0 => Some(Self::Plain),
+            1 => Some(Self::Zstd),
+            2 => Some(Self::Walks),
+            _ => None,
+        }
+    }
+}
+
 /// A block's header. One that was parsed fits its own checksum: its lengths may be believed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockHeader {
     pub(super) section: Section,
     pub(super) meta: BlockMeta,
-    /// The payload is compressed by zstd.
-    pub(super) compressed: bool,
+    /// What is stored of the payload.
+    pub(super) packing: Packing,
     /// Bytes of the payload before compression.
     pub(super) raw_len: u32,
     /// Bytes that follow the header.
@@ -38,7 +60,7 @@ impl BlockHeader {
         h[0..4].copy_from_slice(&TAG);
         h[4] = self.section as u8;
         h[5] = if self.meta.warm_up { FLAG_WARM_UP } else { 0 };
-        h[6] = u8::from(self.compressed);
+        h[6] = self.packing as u8;
         h[8..16].copy_from_slice(&self.meta.batch.to_le_bytes());
         h[16..20].copy_from_slice(&self.meta.records.to_le_bytes());
         h[20..24].copy_from_slice(&self.raw_len.to_le_bytes());
@@ -61,12 +83,13 @@ impl BlockHeader {
         }
         let section = Section::from_number(h[4]).ok_or("a block of a sort this program does not know")?;
         let (raw_len, stored_len) = (word(20), word(24) as usize);
-        let known = h[5] & !FLAG_WARM_UP == 0 && h[6] <= 1 && h[7] == 0;
-        if !known || raw_len as usize > MAX_BLOCK || stored_len > MAX_BLOCK {
+        let packing = Packing::of(h[6]).filter(|_| h[5] & !FLAG_WARM_UP == 0 && h[7] == 0);
+        let packing = packing.ok_or("a block's header makes no sense")?;
+        if raw_len as usize > MAX_BLOCK || stored_len > MAX_BLOCK {
             return Err("a block's header makes no sense");
         }
         let meta = BlockMeta { batch: long(8), warm_up: h[5] & FLAG_WARM_UP != 0, records: word(16) };
-        Ok(Self { section, meta, compressed: h[6] == 1, raw_len, stored_len, checksum: long(32) })
+        Ok(Self { section, meta, packing, raw_len, stored_len, checksum: long(32) })
     }
 }
 

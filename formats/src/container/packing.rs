@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::io;
 use zstd::bulk::{Compressor, Decompressor};
-use zstd::zstd_safe::{CCtx, DCtx};
+use zstd::zstd_safe::{CCtx, CParameter, DCtx};
 
 thread_local! {
     static COMPRESSOR: RefCell<Option<Compressor<'static>>> = const { RefCell::new(None) };
@@ -24,6 +24,16 @@ pub(super) fn compress(payload: &[u8], level: i32) -> io::Result<Vec<u8>> {
     })
 }
 
+/// The same where what repeats may be far apart, anywhere in the payload.
+pub(crate) fn compress_long(payload: &[u8], level: i32) -> io::Result<Vec<u8>> {
+    // All of the payload in the window, but for the smallest and the largest that zstd has.
+    let window = payload.len().next_power_of_two().ilog2().clamp(10, 27);
+    let mut compressor = Compressor::new(level)?;
+    compressor.set_parameter(CParameter::EnableLongDistanceMatching(true))?;
+    compressor.set_parameter(CParameter::WindowLog(window))?;
+    compressor.compress(payload)
+}
+
 /// Makes this thread's context for [`decompress`].
 ///
 /// # Errors
@@ -42,8 +52,13 @@ fn no_memory() -> io::Error {
     io::Error::new(io::ErrorKind::OutOfMemory, "not enough memory")
 }
 
+/// What a zstd frame says of the size of its payload.
+pub(crate) fn content_size(frame: &[u8]) -> Option<usize> {
+    zstd::zstd_safe::get_frame_content_size(frame).ok()??.try_into().ok()
+}
+
 /// The payload of a zstd frame, into a buffer. Returns its size.
-pub(super) fn decompress(frame: &[u8], payload: &mut [u8]) -> io::Result<usize> {
+pub(crate) fn decompress(frame: &[u8], payload: &mut [u8]) -> io::Result<usize> {
     DECOMPRESSOR.with_borrow_mut(|kept| {
         let decompressor = match kept {
             Some(decompressor) => decompressor,

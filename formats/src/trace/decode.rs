@@ -1,6 +1,7 @@
 //! Blocks into searches.
 
 use super::access::{Access, AccessKind, TraceSink};
+use super::archive;
 use super::bits::BitReader;
 use super::groups::nodes_of;
 use super::heap_walk;
@@ -16,7 +17,7 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
     if block.section != Section::Records || check_regions(regions).is_err() {
         return None;
     }
-    let payload = block.decode()?;
+    let payload = payload_of(block, regions)?;
     let mut planes = Planes::split(&payload)?;
     let mut tally = Tally::default();
     let (mut pixels, mut scratch) = (vec![], vec![]);
@@ -49,6 +50,14 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
         tally.count(&scratch);
     }
     planes.is_empty().then_some(tally)
+}
+
+/// What a block holds, in whichever way it was packed.
+pub(super) fn payload_of(block: &Block, regions: &[Region]) -> Option<Vec<u8>> {
+    match block.walks() {
+        Some(packed) => archive::unpack(packed, block.raw_len(), block.meta.records, regions),
+        None => block.decode(),
+    }
 }
 
 fn decode_accesses(

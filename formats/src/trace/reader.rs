@@ -1,6 +1,7 @@
 //! Traces, read a block at a time.
 
 use super::access::{Access, TraceSink};
+use super::archive::Kept;
 use super::decode::decode_searches;
 use crate::container::{Block, BlockMeta, BlockReader, End, Header, StreamKind};
 use crate::digest::Tally;
@@ -12,6 +13,8 @@ use std::io::Read;
 pub struct TraceReader<R> {
     blocks: BlockReader<R>,
     tally: Tally,
+    /// Read by [`next_archived`](Self::next_archived), and not yet handed out.
+    ahead: Option<Block>,
 }
 
 impl<R: Read> TraceReader<R> {
@@ -30,7 +33,7 @@ impl<R: Read> TraceReader<R> {
     pub fn from_blocks(blocks: BlockReader<R>) -> Result<Self> {
         let blocks = blocks.expect_kind(StreamKind::Trace)?;
         match check_regions(&blocks.header().regions) {
-            Ok(()) => Ok(Self { blocks, tally: Tally::default() }),
+            Ok(()) => Ok(Self { blocks, tally: Tally::default(), ahead: None }),
             Err(what) => Err(blocks.damaged(what)),
         }
     }
@@ -62,21 +65,34 @@ impl<R: Read> TraceReader<R> {
         Ok(Some(block.meta))
     }
 
-    /// The next block as it is kept in an archive, and what it adds to the digest; `None` at the end. It is smaller, and much slower
-    /// to write; searches and digest are the same.
+    /// The next block as it is kept in an archive, and what it adds to the digest; `None` at the end. It is smaller, holds the
+    /// searches of several blocks of a batch, and is much slower to write; searches and digest are the same.
     ///
     /// # Errors
     /// As [`replay_block`](Self::replay_block).
     pub fn next_archived(&mut self) -> Result<Option<(Block, Tally)>> {
-        let Some(block) = self.blocks.next_block()? else {
+        let mut kept = Kept::default();
+        loop {
+            let block = match self.ahead.take() {
+                Some(block) => Some(block),
+                None => self.blocks.next_block()?,
+            };
+            let Some(block) = block else { break };
+            let regions = &self.blocks.header().regions;
+            if !kept.has_room_for(&block, regions) {
+                self.ahead = Some(block);
+                break;
+            }
+            let tally = decode_searches(&block, regions, &mut Nobody)
+                .ok_or_else(|| self.blocks.damaged("a block does not hold its searches"))?;
+            kept.push(block, tally, regions);
+        }
+        let Some((block, tally)) = kept.finish(&self.blocks.header().regions)? else {
             self.blocks.end(self.tally)?;
             return Ok(None);
         };
-        let regions = &self.blocks.header().regions;
-        let tally = decode_searches(&block, regions, &mut Nobody)
-            .ok_or_else(|| self.blocks.damaged("a block does not hold its searches"))?;
         self.tally += tally;
-        Ok(Some((block.archived()?, tally)))
+        Ok(Some((block, tally)))
     }
 
     /// The end block, after [`replay_block`](Self::replay_block) has returned `None`.

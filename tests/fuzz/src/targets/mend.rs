@@ -49,7 +49,7 @@ pub fn mended(data: &[u8]) -> Vec<u8> {
         let section = stream[at + 4];
         stream[at + 4] = if section == END { END } else { section % 3 };
         stream[at + 5] &= 1;
-        stream[at + 6] &= 1;
+        stream[at + 6] %= 3;
         stream[at + 7] = 0;
         let stored = reach(&stream, at + BLOCK, length(&stream, at + 24));
         set(&mut stream, at + 24, stored);
