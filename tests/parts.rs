@@ -129,6 +129,85 @@ fn caches_see_parts_as_the_whole() {
 }
 
 #[test]
+fn counts_of_parts_are_added_up() {
+    let folder = Folder::new();
+    folder.run("pm-photons -n 2000 -o map.pmp").ok();
+    for (sample, caches, of) in [
+        ("--only-tiles 9", "--sizes 1K,10% --lines 64,128 --ways full,2", 3),
+        ("--only-tiles 9 --window 30", "--cache 1K,4,64,lru,hash --cache none --page 4K --span first", 3),
+        // Parts of which there are no windows.
+        ("--only-tiles 2", "", 5),
+    ] {
+        let pipe = format!("pm-queries {SMALL} --order tiled --tile 4 {sample} PART | pm-gather map.pmp");
+        folder.sh(&format!("{} -o whole.pmt", pipe.replace("PART", ""))).ok();
+        make_parts(&folder, &pipe, "t", of);
+        let counts = |number: u32| {
+            folder.run(&format!("pm-cachesim --counts {caches} t-{number} -o c-{number}")).ok();
+            format!("c-{number}")
+        };
+        // In whatever order they are given.
+        let counts = (1..=of).rev().map(counts).collect::<Vec<_>>().join(" ");
+        for format in ["table", "csv", "json"] {
+            let whole = folder.run(&format!("pm-cachesim {caches} --format {format} whole.pmt")).ok();
+            let added = folder.run(&format!("pm-cachesim --add --format {format} {counts}")).ok();
+            same_text(sample, whole.text(), &added.text().replace(&counts, "whole.pmt"));
+        }
+    }
+}
+
+#[test]
+fn counts_that_do_not_belong_together_are_refused() {
+    let folder = Folder::new();
+    folder.run("pm-photons -n 2000 -o map.pmp").ok();
+    let pipe = format!("pm-queries {SMALL} --only-tiles 9 PART | pm-gather map.pmp");
+    folder.sh(&format!("{} -o whole.pmt", pipe.replace("PART", ""))).ok();
+    make_parts(&folder, &pipe, "t", 2);
+    make_parts(&folder, &format!("pm-queries {SMALL} PART | pm-gather map.pmp"), "u", 2);
+    make_parts(&folder, &pipe.replace("map.pmp", "map.pmp -k 9"), "v", 2);
+    for (line, name) in [
+        ("t-1", "c-1"),
+        ("t-2", "c-2"),
+        ("--sizes 1K t-2", "d-2"),
+        ("--page 4K t-2", "e-2"),
+        ("--span first t-2", "f-2"),
+        ("v-2", "v"),
+    ] {
+        folder.run(&format!("pm-cachesim --counts {line} -o {name}")).ok();
+    }
+    for (line, said) in [
+        ("--counts whole.pmt", "--counts is for parts (--part i/N), and this is a whole trace"),
+        ("--counts u-1", "u-1 is part 1/2 of a trace without windows: its caches go on from batch to batch"),
+        ("--counts t-1 t-2", "--counts counts one part at a time"),
+        ("--counts --dram 4,8K,open t-1", "cannot be used with"),
+        ("--counts --policies random t-1", "random"),
+        ("--add --sizes 1K c-1 c-2", "cannot be used with"),
+        ("--add c-1", "part 2/2 is missing"),
+        ("--add c-2 c-1 c-2", "are both part 2/2"),
+        ("--add c-1 v", "`k` differ"),
+        ("--add c-1 d-2", "c-1 and d-2 were counted for other caches"),
+        ("--add c-1 e-2", "c-1 and e-2 were counted with another --page or --span"),
+        ("--add c-1 f-2", "c-1 and f-2 were counted with another --page or --span"),
+    ] {
+        let outcome = folder.run(&format!("pm-cachesim {line}"));
+        assert!(outcome.code == 2 && outcome.stderr.contains(said), "{line}: {}", outcome.stderr);
+        assert!(outcome.stdout.is_empty(), "{line}");
+    }
+    let counts = String::from_utf8(folder.read("c-2")).expect("JSON is text");
+    let half = &counts[..counts.len() / 2];
+    for damaged in
+        [half.to_owned(), "{}".to_owned(), counts.replace("\"both\"", "\"none\""), counts.replacen("[\n", "[\n -1,", 3)]
+    {
+        folder.write("damaged", damaged.as_bytes());
+        let outcome = folder.run("pm-cachesim --add c-1 damaged");
+        assert!(outcome.fails(3).contains("damaged: "), "{}", outcome.stderr);
+    }
+    // A batch of the other part.
+    folder.write("twice", folder.run("pm-cachesim --counts t-1").ok().text().replace("312f32", "322f32").as_bytes());
+    let outcome = folder.run("pm-cachesim --add c-1 twice");
+    assert!(outcome.code != 0 && outcome.stdout.is_empty(), "{}", outcome.stderr);
+}
+
+#[test]
 fn pictures_of_parts_are_added_up() {
     let folder = Folder::new();
     folder.run("pm-photons -n 2000 -o map.pmp").ok();

@@ -65,4 +65,4 @@ pub use misses::{BankMap, Dram, DramCounts, DramError, MissStream, MissStreamErr
 pub use models::{Answer, CacheModel, CacheOnTrace, LineCounts, Modelled, Replacement};
 pub use policies::{ChosenPolicy, Policy, UnknownPolicy, WaysNeeded, policies};
 pub use simulation::{Simulation, SimulationError};
-pub use windows::{WindowCounts, WindowError, WindowedCounts, Windows};
+pub use windows::{CountedWindows, WindowCounts, WindowError, WindowedCounts, Windows};

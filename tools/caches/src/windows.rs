@@ -7,6 +7,7 @@
 //! were exact. But the truth lies between two bounds, since lines that a set sees for the first time before it is filled are
 //! all that is not known: half of these are counted, and the interval is as much wider.
 
+mod counted_windows;
 mod error;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,7 @@ mod warmth;
 mod window_counts;
 mod windowed_counts;
 
+pub use counted_windows::CountedWindows;
 pub use error::WindowError;
 pub use window_counts::WindowCounts;
 pub use windowed_counts::WindowedCounts;

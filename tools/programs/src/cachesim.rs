@@ -6,6 +6,7 @@ mod columns;
 mod curve_point;
 mod found;
 mod miss_file;
+mod part_counts;
 mod policy_words;
 mod questions;
 mod replay;
@@ -59,7 +60,12 @@ pub fn run(args: &Args, typed: &Typed, registries: &Registries) -> anyhow::Resul
         return Err(usage("standard input (`-`) can be read only once"));
     }
     let mut results = Results::default();
-    if let Some(file) = &args.misses {
+    if args.counts {
+        return part_counts::count(args, &registries.imports, &questions).map(Some);
+    }
+    if args.add {
+        part_counts::add_up(args, &questions, &mut results)?;
+    } else if let Some(file) = &args.misses {
         miss_file::write(args, typed, registries, &questions, file, &mut results)?;
         if file == Path::new("-") && args.output() == Path::new("-") {
             return Ok(None);

@@ -86,6 +86,16 @@ pub struct Args {
     /// Which searches fly together: the next of the stream, or one of each of as many parts of a batch
     #[arg(long, value_name = "HOW", default_value = "stream", requires = "lanes", hide_short_help = true, value_parser = choice::<LaneSource>())]
     pub(super) lanes_from: LaneSource,
+    /// Count the windows of one part of a trace of windows, and write what --add adds to that of the others, instead of a table
+    ///
+    /// A window begins with empty caches, so what is counted of it is the same wherever that is. Without windows caches go on from
+    /// part to part: then all parts have to be given.
+    #[arg(long, conflicts_with_all = ["format", "misses", "curve", "shards", "lanes", "dram", "dinero", "add"], hide_short_help = true)]
+    pub(super) counts: bool,
+    /// The inputs are what --counts wrote of all parts: the table of the whole
+    #[arg(long, conflicts_with_all = ["cache", "sizes", "lines", "ways", "policies", "misses", "curve", "shards", "lanes", "dram",
+        "dinero", "span", "page", "result_cache", "pixel", "columns"], hide_short_help = true)]
+    pub(super) add: bool,
     #[command(flatten)]
     pub(super) foreign: ForeignArgs,
     /// Columns of a CSV file: address (or key, any text), size, kind, and _ for one to skip, or names of its own, such as address=lbn,size=len

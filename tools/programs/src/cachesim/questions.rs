@@ -114,7 +114,7 @@ fn measures(args: &Args) -> anyhow::Result<Measures> {
         measures.curves = lines.collect::<anyhow::Result<_>>()?;
         measures.sampled = args.shards;
         measures.exact_too = args.curve;
-    } else if args.format != Format::Table {
+    } else if args.format != Format::Table || args.counts || args.add {
         measures.split = true;
         measures.page_bytes = Some(args.page.0);
         measures.working_sets = true;

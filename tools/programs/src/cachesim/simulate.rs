@@ -1,12 +1,12 @@
 //! Traces through the simulation: ours and foreign ones, whole and in windows, with one search in flight or several.
 
-use super::questions::{Questions, asked_wrongly};
+use super::questions::Questions;
 use super::replay::{Replay, Waiting};
 use super::results::{Results, Source};
 use super::{Args, windowed};
 use crate::cli::{Progress, named, open_bytes, room_for, usage};
 use anyhow::Context as _;
-use pm_caches::{Lanes, Measures, Simulation, WindowError, Windows};
+use pm_caches::{Lanes, Measures, Simulation};
 use pm_exchange::traces::{self, Opened, Trace, TraceImport};
 use pm_formats::trace::{Access, Region, TraceReader, TraceSink};
 use pm_registry::Registry;
@@ -108,10 +108,7 @@ fn simulate_ours<R: Read>(
     let measures = if of_addresses { questions.measures_of_addresses() } else { measures };
     if let Some(sample) = windowed::sample(trace.header())? {
         windowed::refuse(args)?;
-        let mut windows = Windows::new(&regions, configs, &measures).map_err(|error| match error {
-            WindowError::Policy(_) => asked_wrongly(error),
-            error => error.into(),
-        })?;
+        let mut windows = windowed::windows(&regions, configs, &measures)?;
         replay(args, &mut trace, &mut windows)?;
         let rows = windows.finish(Some(sample.windows), sample.share);
         results.add_windows(&Source::ours(path, trace.header(), &trace.end()?), rows);
@@ -139,7 +136,7 @@ fn simulate_ours<R: Read>(
 }
 
 /// Lines of a small size, of all regions, that tables are made for: some bytes each for every cache, and for what is asked besides.
-fn room_for_lines(regions: &[Region], questions: &Questions) -> anyhow::Result<()> {
+pub(super) fn room_for_lines(regions: &[Region], questions: &Questions) -> anyhow::Result<()> {
     let bytes =
         regions.iter().filter(|region| !region.is_addresses()).map(|region| region.size).fold(0, u64::saturating_add);
     // More lines than there are numbers are refused by whoever numbers them.
@@ -150,7 +147,7 @@ fn room_for_lines(regions: &[Region], questions: &Questions) -> anyhow::Result<(
 }
 
 /// Replays a trace to its end.
-fn replay<R: Read>(args: &Args, trace: &mut Replay<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
+pub(super) fn replay<R: Read>(args: &Args, trace: &mut Replay<R>, sink: &mut impl TraceSink) -> anyhow::Result<()> {
     let progress = Progress::new(trace.header().expected_records, "searches", args.voice.quiet);
     while let Some(block) = trace.replay_block(sink)? {
         progress.add(u64::from(block.records));

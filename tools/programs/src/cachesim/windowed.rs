@@ -1,10 +1,12 @@
 //! Traces of windows: what their header says, and what cannot be asked of them.
 
 use super::Args;
+use super::questions::asked_wrongly;
 use crate::cli::usage;
-use pm_caches::SpanRule;
+use pm_caches::{CacheConfig, Measures, SpanRule, WindowError, Windows};
 use pm_exchange::bad_input;
 use pm_formats::Header;
+use pm_formats::trace::Region;
 use pm_formats::vocabulary::meaning;
 
 /// The most windows a trace may say it has.
@@ -55,4 +57,15 @@ pub(super) fn refuse(args: &Args) -> anyhow::Result<()> {
         () => return Ok(()),
     };
     Err(usage(format!("{what}; leave it out, or give a trace that is not sampled in windows")))
+}
+
+/// Caches that wait for the windows of a trace.
+///
+/// # Errors
+/// As [`Windows::new`].
+pub(super) fn windows(regions: &[Region], caches: &[CacheConfig], measures: &Measures) -> anyhow::Result<Windows> {
+    Windows::new(regions, caches, measures).map_err(|error| match error {
+        WindowError::Policy(_) => asked_wrongly(error),
+        error => error.into(),
+    })
 }
