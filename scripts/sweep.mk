@@ -9,6 +9,7 @@
 
 SWEEP :=
 KEEP :=
+COUNTING :=
 $(if $(filter-out yes,$(KEEP)),$(error KEEP=$(KEEP): yes or nothing is expected))
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)
@@ -39,7 +40,7 @@ inputs = $(filter-out out/.made/%,$^)
 # the programs, and one make at a time has the folder.
 PLAIN := help programs test test-cluster check man options install dist stability clean clean-streams
 ifneq ($(filter-out $(PLAIN),$(MAKECMDGOALS)),)
-out/rules.mk: $(if $(MAKE_RESTARTS),,programs always)
+out/rules.mk: $(if $(MAKE_RESTARTS)$(COUNTING),,programs always)
 	@mkdir -p $(@D)
 	@$(if $(only_told),,$(BIN)/pm-sweep hold out --by $$PPID --what $(call quoted,make $(MAKECMDGOALS)) &&) \
 	    $(BIN)/pm-sweep rules $(sort $(wildcard scripts/sweeps/*.csv)) --claims scripts/claims.csv --taken '$(TAKEN)' $(if $(SWEEP),--own $(call quoted,$(SWEEP))) -o $@
@@ -50,16 +51,38 @@ endif
 TAKEN := streams
 
 # Rows appear whole or not at all. What ran is not believed when it says that it is done: there has to be a row. (A cluster's
-# launcher can say 0 for a run that never ended.)
+# launcher can say 0 for a run that never ended.) What it said on standard error is kept beside a row that did not come.
 define row
-@mkdir -p $(@D)
-$(LAUNCH) bash -euo pipefail -c 'rows=$$($1); printf "%s\n" "$$rows"' > $@.part
-@pm-sweep row $@.part $@
+$(announced)$(counted)@mkdir -p $(@D)
+$(LAUNCH) bash -euo pipefail -c 'rows=$$($1); printf "%s\n" "$$rows"' > $@.part 2> $@.said; pm-sweep row $@.part $@ --code $$? --said $@.said$(place)
 endef
+
+# ---- how much there is to do ---------------------------------------------------------------------------------------------
+
+# Before the first stream or row is made: how many rows there are to make, counted by a make that only tells, and what the goal takes
+# from nothing.
+announced = $(if $(ANNOUNCED)$(COUNTING)$(only_told),,$(eval ANNOUNCED := yes)$(eval ROWS := $(rows_to_make))$(eval SINCE := $(shell date +%s))$(info \
+    $(MAKE): $(ROWS) rows to make$(foreach goal,$(filter $(LONG),$(MAKECMDGOALS)),. From nothing, `make $(goal)` takes $(TAKES.$(goal)))$(if \
+    $(filter $(LONG),$(MAKECMDGOALS)),; there are $(shell df -Ph . | awk 'END { print $$4 }') free)))
+rows_to_make = $(shell $(MAKE) -n --no-print-directory COUNTING=yes $(MAKEOVERRIDES) $(MAKECMDGOALS) 2>/dev/null | grep -c '[>] out/.*pm-sweep row ')
+# The rows that were begun, a word each.
+counted = $(if $(COUNTING)$(only_told),,$(eval BEGUN += x))
+place = $(if $(filter-out 0,$(ROWS)), --place $(words $(BEGUN))/$(ROWS) --since $(SINCE))
+
+LONG := paper full-size frontier structures charts-cache accuracy need plan-coverage paper-exact
+TAKES.paper := a quarter of an hour on two cores and 2 GB below out/
+TAKES.full-size := an hour with -j2 and 1 GB below out/
+TAKES.frontier := an hour with -j2 and 2 GB below out/
+TAKES.structures := half an hour with -j2 and 1 GB below out/
+TAKES.charts-cache := 12 minutes with -j2 and half a GB below out/
+TAKES.accuracy := an hour
+TAKES.need := twenty minutes
+TAKES.plan-coverage := hours
+TAKES.paper-exact := a working day
 
 # So do streams, which the programs see to.
 define stream
-@mkdir -p $(@D)
+$(announced)@mkdir -p $(@D)
 $(LAUNCH) bash -euo pipefail -c '$1 -o $@'
 @test -s $@ || { echo "$@: was not made" >&2; exit 1; }
 endef

@@ -4,7 +4,7 @@ mod again;
 mod folder;
 mod mistakes;
 
-use crate::support::{Folder, PROGRAMS};
+use crate::support::{Folder, PROGRAMS, same_bytes};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -116,6 +116,61 @@ fn queries_that_others_begin_with_are_cast_once_and_kept() {
     };
     assert_eq!(row(folder.read("out/my/b.csv")), row(piped.stdout));
     assert_ne!(row(folder.read("out/my/a.csv")), row(folder.read("out/my/b.csv")));
+}
+
+#[test]
+fn points_that_differ_in_caches_alone_gather_once_and_have_the_rows_of_pipes() {
+    let folder = workshop();
+    let table = "point,size,k,photons,queries,gather,cache\n\
+        {k}.{size},1K 4K 16K,10,-n 500,--size 8x8 --gathers 4,-k {k},--sizes {size}\n\
+        {k}.{size},4K,20,-n 500,--size 8x8 --gathers 4,-k {k},--sizes {size}\n";
+    folder.write("my.csv", table);
+    let outcome = make(&folder, "-j2 sweep SWEEP=my.csv");
+    assert!(outcome.status.success(), "{}", said(&outcome));
+    // The recipes of one trace, and of the point that shares it with nobody.
+    assert_eq!(said(&outcome).matches("'pm-gather -q ").count() + said(&outcome).matches("(pm-gather -q ").count(), 2);
+    for (k, size) in [(10, "1K"), (10, "4K"), (10, "16K"), (20, "4K")] {
+        let pipe = format!(
+            "export PATH=$PWD/target/release:$PATH; pm-gather -q out/streams/n-500.pmp out/streams/size-8x8-gathers-4.pmq -k {k} | \
+             pm-cachesim -q --format csv --sizes {size}"
+        );
+        let piped = Command::new("bash").args(["-c", &pipe]).current_dir(folder.path(".")).output().expect("bash runs");
+        same_bytes(&format!("{k}.{size}"), &folder.read(format!("out/my/{k}.{size}.csv")), &piped.stdout);
+    }
+    // Of a row that is missing, its simulation alone.
+    fs::remove_file(folder.path("out/my/10.4K.csv")).unwrap();
+    let again = make(&folder, "sweep SWEEP=my.csv");
+    assert!(made(&again, "10.4K") && !said(&again).contains("pm-gather"), "{}", said(&again));
+}
+
+#[test]
+fn a_row_that_does_not_come_says_why_and_those_that_come_how_many_are_left() {
+    let folder = workshop();
+    let table = "point,command\n\
+        a,echo a remark >&2; printf \"x\\n1\\n\"\n\
+        b,echo first words >&2; echo last words >&2; exit 5\n\
+        c,printf \"x\\n1\\n\"; exit 6\n";
+    folder.write("my.csv", table);
+    let outcome = make(&folder, "-k sweep SWEEP=my.csv");
+    let said = said(&outcome);
+    assert!(!outcome.status.success());
+    for told in [
+        "3 rows to make",
+        "a remark",
+        "out/my/a.csv: row 1 of 3, about ",
+        "out/my/b.csv: no row came back; what makes it ended with code 5; it said last: last words",
+        "first words",
+        "out/my/c.csv: no row came back; what makes it ended with code 6",
+    ] {
+        assert!(said.contains(told), "{told}: {said}");
+    }
+    assert_eq!(folder.read("out/my/b.csv.said"), b"first words\nlast words\n");
+    assert!(folder.path("out/my/a.csv").exists() && !folder.path("out/my/a.csv.said").exists());
+    // What is left alone is not counted.
+    folder.write("my.csv", table.replace("; exit 5", "; printf \"x\\n1\\n\"").replace("; exit 6", ""));
+    let again = make(&folder, "sweep SWEEP=my.csv");
+    assert!(again.status.success() && self::said(&again).contains("2 rows to make"), "{}", self::said(&again));
+    assert!(!folder.path("out/my/b.csv.said").exists());
 }
 
 #[test]

@@ -201,6 +201,26 @@ fn names_in_streams_come_from_the_vocabulary() {
     }
 }
 
+/// What is built into a program is in its own crate, so that `cargo package` takes all of it along.
+#[test]
+fn what_is_built_in_lies_in_the_crate() {
+    let mut built_in = 0;
+    for (name, text) in all_sources() {
+        let Some(crate_end) = name.find("/src/") else { continue };
+        let depth = name[crate_end + "/src/".len()..].matches('/').count() + 1;
+        // Tests read pages of the whole house, and are not built into anything.
+        let built = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+        for macro_name in ["include_str!(\"", "include_bytes!(\""] {
+            for path in built.split(macro_name).skip(1).filter(|_| !name.ends_with("tests.rs")) {
+                built_in += 1;
+                let path = path.split('"').next().unwrap_or_default();
+                assert!(path.matches("../").count() <= depth, "{name}: {path} lies outside of the crate");
+            }
+        }
+    }
+    assert!(built_in > 5, "{built_in}");
+}
+
 #[test]
 fn nothing_is_unsafe() {
     for (path, text) in all_sources() {

@@ -4,6 +4,7 @@
 //! into rules for make, and [`join`](join::join) puts their rows together. What nobody uses is refused with its line: a column
 //! that does nothing would name results by something that they do not depend on. `scripts/README.md` says how a table is written.
 
+mod believed;
 mod check;
 mod error;
 pub mod join;
@@ -14,6 +15,7 @@ mod number;
 mod pipe;
 mod place;
 mod point;
+pub mod progress;
 pub mod rows;
 pub mod rules;
 mod stage;
@@ -24,6 +26,7 @@ pub mod until;
 mod words;
 mod work;
 
+pub use believed::believed;
 pub use error::{SweepError, TableError};
 pub use number::significant;
 pub use place::placed;

@@ -29,12 +29,16 @@ pub(crate) fn work(texts: &Texts) -> Result<Work, String> {
             return Err(format!("|| keeps queries, and stands in their column only, not in `{stage:?}`").to_lowercase());
         }
     }
-    let command = match (texts.get(&Stage::Command), stream) {
-        (Some(command), _) => escaped(command),
-        (None, "") => cachesim(texts, format!("pm-gather -q {{{PHOTONS}}} {{{QUERIES}}} {THREADS}")),
+    let gathers = match (texts.get(&Stage::Command), stream) {
+        (Some(_), _) => None,
+        (None, "") => Some(gather(texts, format!("pm-gather -q {{{PHOTONS}}} {{{QUERIES}}} {THREADS}"))),
         (None, _) => {
-            cachesim(texts, format!("< {{{QUERIES}}} {} | pm-gather -q {{{PHOTONS}}} {THREADS}", escaped(stream)))
+            Some(gather(texts, format!("< {{{QUERIES}}} {} | pm-gather -q {{{PHOTONS}}} {THREADS}", escaped(stream))))
         }
+    };
+    let command = match &gathers {
+        Some(gathers) => format!("{gathers} | {}", cachesim(texts)),
+        None => escaped(text(Stage::Command)),
     };
     let mut needs = files(text(Stage::Needs))?;
     let (uses_photons, uses_queries) = uses(&command, text(Stage::Queries));
@@ -48,8 +52,9 @@ pub(crate) fn work(texts: &Texts) -> Result<Work, String> {
     if uses_queries {
         needs.push(queries_file.clone());
     }
-    let command = filled(&command, PHOTONS, &photons_file);
-    Ok(Work { streams: pipe.streams, needs, command: filled(&command, QUERIES, &queries_file) })
+    let in_files = |command: &str| filled(&filled(command, PHOTONS, &photons_file), QUERIES, &queries_file);
+    let (command, gathers) = (in_files(&command), gathers.as_deref().map(in_files));
+    Ok(Work { streams: pipe.streams, needs, command, gathers })
 }
 
 /// Whether a command, and the queries if it uses them, use the photons; and whether it uses the queries.
@@ -68,10 +73,40 @@ fn filled(text: &str, name: &str, by: &str) -> String {
     text.replace(&format!("{{{name}}}"), by)
 }
 
-fn cachesim(texts: &Texts, gather: String) -> String {
-    let options = |stage| texts.get(&stage).map_or(String::new(), |text| escaped(text.trim()));
-    let cachesim = with("pm-cachesim -q --format csv", &options(Stage::Cache), " ");
-    format!("{} | {cachesim}", with(&gather, &options(Stage::Gather), " "))
+fn gather(texts: &Texts, program: String) -> String {
+    with(&program, &options(texts, Stage::Gather), " ")
+}
+
+fn cachesim(texts: &Texts) -> String {
+    with("pm-cachesim -q --format csv", &options(texts, Stage::Cache), " ")
+}
+
+fn options(texts: &Texts, stage: Stage) -> String {
+    texts.get(&stage).map_or(String::new(), |text| escaped(text.trim()))
+}
+
+/// Lets points that differ only in what simulates caches share one trace, which becomes a stream of theirs. It is read from
+/// standard input, so that rows are as if it had been piped.
+pub(crate) fn share_traces<'a>(works: impl Iterator<Item = &'a mut Work>) {
+    let mut alike: BTreeMap<_, Vec<&mut Work>> = BTreeMap::new();
+    for work in works {
+        if let Some(gathers) = work.gathers.clone() {
+            alike.entry((gathers, work.needs.clone())).or_default().push(work);
+        }
+    }
+    for ((gathers, needs), works) in alike.into_iter().filter(|(_, works)| works.len() > 1) {
+        let file = format!("{STREAMS}/{}.pmt", slug(&gathers.replace(&format!("{STREAMS}/"), "")));
+        for work in works {
+            let trace = Stream { file: file.clone(), needs: needs.clone(), command: gathers.clone() };
+            let simulates = work.command[gathers.len()..].trim_start_matches(" | ").to_owned();
+            // Some of what gathering needs may be named to the simulation as well.
+            work.needs.retain(|file| simulates.contains(file.as_str()));
+            work.needs.push(file.clone());
+            work.streams.push(trace);
+            work.command = format!("< {file} {simulates}");
+            work.gathers = None;
+        }
+    }
 }
 
 /// Two texts with something between them, if there are two.
@@ -196,6 +231,25 @@ mod tests {
         let guided = made(&[(Stage::Photons, "-n 5"), (Stage::Queries, "--guide {photons}")]).unwrap();
         assert_eq!(guided.streams[1].needs, [guided.streams[0].file.clone()]);
         assert!(guided.streams[1].file.ends_with("guide-n-5.pmq"));
+    }
+
+    #[test]
+    fn points_that_differ_in_caches_alone_share_a_trace() {
+        let point = |gather: &str, cache: &str| {
+            made(&[(Stage::Photons, "-n 5"), (Stage::Gather, gather), (Stage::Cache, cache)]).unwrap()
+        };
+        let alone = point("-k 6", "--sizes 4K");
+        let mut works = [point("-k 5", "--sizes 4K"), point("-k 5", "--of {photons}"), alone.clone()];
+        share_traces(works.iter_mut());
+        let trace = "out/streams/pm-gather-q-n-5.pmp-default.pmq-t-THREADS-k-5.pmt";
+        for (work, simulates) in works.iter().zip(["--sizes 4K", "--of out/streams/n-5.pmp"]) {
+            assert_eq!(work.command, format!("< {trace} pm-cachesim -q --format csv {simulates}"));
+            let gathers = work.streams.last().unwrap();
+            assert_eq!((gathers.file.as_str(), gathers.needs.len()), (trace, 2));
+            assert_eq!(gathers.command, "pm-gather -q out/streams/n-5.pmp out/streams/default.pmq -t $(THREADS) -k 5");
+        }
+        assert_eq!((works[0].needs.as_slice(), works[1].needs.len()), (&[trace.to_owned()][..], 2));
+        assert_eq!(works[2], alone);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 use crate::make::quoted;
 use crate::names::prerequisite;
+use crate::pipe::share_traces;
 use crate::{Stream, Sweep, TableError};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -16,14 +17,16 @@ use xxhash_rust::xxh3::xxh3_64;
 /// If two streams that are made otherwise would have the same name.
 pub fn rules(sweeps: &[Sweep], words: &str) -> Result<String, TableError> {
     let mut text = String::new();
-    let streams = streams(sweeps)?;
+    let mut sweeps = sweeps.to_vec();
+    share_traces(sweeps.iter_mut().flat_map(|sweep| &mut sweep.points).map(|point| &mut point.work));
+    let streams = streams(&sweeps)?;
     for stream in &streams {
         target(&mut text, &stream.file, &stream.needs, &stream.command);
     }
     list(&mut text, "STREAMS", streams.iter().map(|stream| stream.file.as_str()));
     // Rows outlive them: without them, they are made again only for rows that are missing.
     text += "ifdef STREAMS\n$(STREAMS):\n\t$(call stream,$(RUN.$@))\n.SECONDARY: $(STREAMS)\nendif\n";
-    for sweep in sweeps {
+    for sweep in &sweeps {
         let Sweep { name, file, points, .. } = sweep;
         let _ = writeln!(text, "\n# {file}");
         let files: Vec<String> = points.iter().map(|point| sweep.rows_of(point)).collect();

@@ -20,4 +20,6 @@ pub struct Work {
     pub needs: Vec<String>,
     /// What prints the row, as make reads it.
     pub command: String,
+    /// The part of it that makes a trace, if the rest simulates caches over that; the two are piped together.
+    pub gathers: Option<String>,
 }

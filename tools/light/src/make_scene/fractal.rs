@@ -38,8 +38,8 @@ impl Recipe for Fractal {
     fn build(&self, fineness: u32) -> Model {
         let cells = fineness as usize;
         let mut model = Model::new(
-            include_str!("../../../../scenes/cornell.mtl").split_once("\n\n").expect("a head and materials").1,
-            include_str!("../../../../scenes/cornell.camera.toml"),
+            include_str!("../../scenes/cornell.mtl").split_once("\n\n").expect("a head and materials").1,
+            include_str!("../../scenes/cornell.camera.toml"),
         );
         model.about = vec![
             "The Cornell box with a mirror and a glass sphere, its walls displaced inward by fractals of up to".into(),

@@ -38,8 +38,8 @@ impl Scene {
     /// [`Camera::embedded`](super::Camera::embedded).
     pub fn embedded() -> Self {
         let built_in = |path: &Path| match path.to_str() {
-            Some("cornell.obj") => Ok(include_bytes!("../../../../scenes/cornell.obj").to_vec()),
-            Some("cornell.mtl") => Ok(include_bytes!("../../../../scenes/cornell.mtl").to_vec()),
+            Some("cornell.obj") => Ok(include_bytes!("../../scenes/cornell.obj").to_vec()),
+            Some("cornell.mtl") => Ok(include_bytes!("../../scenes/cornell.mtl").to_vec()),
             _ => Err(std::io::ErrorKind::NotFound.into()),
         };
         let scene = Self::load(&["cornell.obj".into()], &LoadOptions::default(), &built_in);

@@ -37,7 +37,7 @@ impl Camera {
     ///
     /// [`SceneError::Camera`] if it makes no sense with the overrides.
     pub fn embedded(overrides: &CameraOverrides) -> Result<CameraChoice, SceneError> {
-        file::parse(include_str!("../../../../../scenes/cornell.camera.toml"), "built-in Cornell box", overrides)
+        file::parse(include_str!("../../../scenes/cornell.camera.toml"), "built-in Cornell box", overrides)
     }
 }
 
