@@ -135,7 +135,7 @@ fn points_that_differ_in_caches_alone_gather_once_and_have_the_rows_of_pipes() {
              pm-cachesim -q --format csv --sizes {size}"
         );
         let piped = Command::new("bash").args(["-c", &pipe]).current_dir(folder.path(".")).output().expect("bash runs");
-        same_bytes(&format!("{k}.{size}"), &folder.read(format!("out/my/{k}.{size}.csv")), &piped.stdout);
+        same_bytes(&format!("{k}.{size}"), &folder.read(&format!("out/my/{k}.{size}.csv")), &piped.stdout);
     }
     // Of a row that is missing, its simulation alone.
     fs::remove_file(folder.path("out/my/10.4K.csv")).unwrap();

@@ -1,5 +1,6 @@
 //! Records of fixed size, and how a block holds them.
 
+mod columns;
 mod direction;
 mod photon;
 mod query;
@@ -16,14 +17,13 @@ use crate::container::{Block, BlockMeta, Header, Section, StreamKind};
 use crate::digest::Tally;
 use crate::error::Result;
 use bytemuck::Pod;
+use columns::{columns, put_back, tally};
 
 #[cfg(target_endian = "big")]
 compile_error!("records are little-endian and are read in place: this library needs a little-endian machine");
 
 /// Most records in a block.
 pub const BLOCK_RECORDS: usize = 4096;
-/// Records whose words are put into columns, or back, at a time.
-const TILE: usize = 128;
 /// zstd level for records: positions hardly compress, so more effort buys nothing.
 const LEVEL: i32 = 1;
 
@@ -43,46 +43,26 @@ pub trait Record: Pod {
 /// If the records are too many for a block.
 pub fn encode_records<T: Record>(meta: BlockMeta, records: &[T]) -> Result<(Block, Tally)> {
     let count = u32::try_from(records.len()).expect("a block's worth of records");
-    let block = Block::encode(BlockMeta { records: count, ..meta }, bytemuck::cast_slice(&columns(records)), LEVEL)?;
-    Ok((block, tally(records)))
-}
-
-/// The words of records, column by column.
-fn columns<T: Record>(records: &[T]) -> Vec<u32> {
-    let words_each = size_of::<T>() / 4;
-    let words: &[u32] = bytemuck::cast_slice(records);
-    let mut columns = vec![0; words.len()];
-    // A few records at a time, which stay near while each column takes its words of them.
-    for (from, tile) in (0..).step_by(TILE).zip(words.chunks(TILE * words_each)) {
-        for (column, values) in columns.chunks_exact_mut(records.len().max(1)).enumerate() {
-            for (value, record) in values[from..].iter_mut().zip(tile.chunks_exact(words_each)) {
-                *value = record[column];
-            }
-        }
-    }
-    columns
+    let block = Block::encode(
+        BlockMeta { records: count, ..meta },
+        bytemuck::cast_slice(&columns(words(records), words_each::<T>())),
+        LEVEL,
+    )?;
+    Ok((block, tally(words(records), words_each::<T>())))
 }
 
 /// The records of a block; `None` if the payload does not hold what the block says.
 #[must_use]
 pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
-    let words_each = size_of::<T>() / 4;
     let count = block.meta.records as usize;
     if block.section != Section::Records || block.raw_len() != count * size_of::<T>() {
         return None;
     }
-    let mut columns = vec![0u32; count * words_each];
+    let mut columns = vec![0u32; count * words_each::<T>()];
     block.decode_into(bytemuck::cast_slice_mut(&mut columns))?;
     let mut records = vec![T::zeroed(); count];
-    let words: &mut [u32] = bytemuck::cast_slice_mut(&mut records);
-    for (from, tile) in (0..).step_by(TILE).zip(words.chunks_mut(TILE * words_each)) {
-        for (column, values) in columns.chunks_exact(count.max(1)).enumerate() {
-            for (record, value) in tile.chunks_exact_mut(words_each).zip(&values[from..]) {
-                record[column] = *value;
-            }
-        }
-    }
-    let tally = tally(&records);
+    put_back(&columns, bytemuck::cast_slice_mut(&mut records), words_each::<T>());
+    let tally = tally(words(&records), words_each::<T>());
     Some((records, tally))
 }
 
@@ -98,10 +78,13 @@ pub fn decode_checked<T: Record>(block: &Block, header: &Header) -> std::result:
     }
 }
 
-fn tally<T: Record>(records: &[T]) -> Tally {
-    let mut tally = Tally::default();
-    records.iter().for_each(|record| tally.count(bytemuck::bytes_of(record)));
-    tally
+/// Words of a record.
+const fn words_each<T: Record>() -> usize {
+    size_of::<T>() / 4
+}
+
+fn words<T: Record>(records: &[T]) -> &[u32] {
+    bytemuck::cast_slice(records)
 }
 
 #[cfg(test)]

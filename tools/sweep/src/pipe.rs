@@ -95,7 +95,11 @@ pub(crate) fn share_traces<'a>(works: impl Iterator<Item = &'a mut Work>) {
         }
     }
     for ((gathers, needs), works) in alike.into_iter().filter(|(_, works)| works.len() > 1) {
-        let file = format!("{STREAMS}/{}.pmt", slug(&gathers.replace(&format!("{STREAMS}/"), "")));
+        // What all of them have is left out of the name.
+        let said = [format!("{STREAMS}/").as_str(), "pm-gather -q", THREADS]
+            .iter()
+            .fold(gathers.clone(), |said, all| said.replace(all, ""));
+        let file = format!("{STREAMS}/{}.pmt", slug(&said));
         for work in works {
             let trace = Stream { file: file.clone(), needs: needs.clone(), command: gathers.clone() };
             let simulates = work.command[gathers.len()..].trim_start_matches(" | ").to_owned();
@@ -241,7 +245,7 @@ mod tests {
         let alone = point("-k 6", "--sizes 4K");
         let mut works = [point("-k 5", "--sizes 4K"), point("-k 5", "--of {photons}"), alone.clone()];
         share_traces(works.iter_mut());
-        let trace = "out/streams/pm-gather-q-n-5.pmp-default.pmq-t-THREADS-k-5.pmt";
+        let trace = "out/streams/n-5.pmp-default.pmq-k-5.pmt";
         for (work, simulates) in works.iter().zip(["--sizes 4K", "--of out/streams/n-5.pmp"]) {
             assert_eq!(work.command, format!("< {trace} pm-cachesim -q --format csv {simulates}"));
             let gathers = work.streams.last().unwrap();
