@@ -103,7 +103,7 @@ include scripts/fuzz.mk
 
 TAKEN += scenes
 
-scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere gap) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere, room with a gap
+scenes: $(patsubst %,out/scenes/%.obj,fractal columns sphere gap sunlit) ## Make the generated scenes in out/scenes: fractal Cornell box, hall of columns, integrating sphere, room with a gap, sunlit room
 
 out/scenes/%.obj: $(call made_with,PROGRAMS)
 	$(LAUNCH) $(BIN)/pm-scene $* -q -o out/scenes

@@ -2,10 +2,11 @@
 # One point of what a scene needs: a picture of so many photons, neighbours and rays, as one row of CSV: its error against a
 # reference, seconds of processor time, and the bytes that its searches fetch through a cache of 128 KiB, row by row and along a
 # Hilbert curve within tiles of 8 x 8 pixels.
-#   scripts/need-point.sh OUT ROOM SIZE REFERENCE PHOTONS K SAMPLES GATHERS
+#   scripts/need-point.sh OUT ROOM SIZE REFERENCE PHOTONS K SAMPLES GATHERS [options of pm-picture]
 # ROOM is a scene of scenes/ or out/scenes/. Of many rays, 16 windows or tiles are traced.
 set -euo pipefail
 out=$1 room=$2 size=$3 reference=$4 photons=$5 k=$6 samples=$7 gathers=$8
+shift 8
 . "${0%/*}/room.sh"
 mkdir -p "$(dirname "$out")"
 work=$(mktemp -d "$out.XXXXXX")
@@ -16,7 +17,7 @@ column() {
         NR == 2 { sub(/,"([^"]|"")*"$/, ",x"); print $(NF - at) }'
 }
 TIMEFORMAT='%U %S'
-{ time pm-picture -q "${load[@]}" --size "$size" -n "$photons" -k "$k" --samples "$samples" --gathers "$gathers" \
+{ time pm-picture -q "${load[@]}" --size "$size" -n "$photons" -k "$k" --samples "$samples" --gathers "$gathers" "$@" \
     --keep "$work" --image "$work/picture.exr" 2>&3; } 3>&2 2> "$work/time"
 error=$(pm-view -q "$reference" "$work/picture.exr" --format csv | column rel_mse)
 

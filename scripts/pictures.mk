@@ -2,7 +2,7 @@
 
 LOOK := out/pictures
 TAKEN += pictures
-PICTURED := cornell cornell-diffuse fractal columns columns-cached furnace sphere gap
+PICTURED := cornell cornell-diffuse fractal columns columns-cached furnace sphere gap sunlit
 # Where light comes through glass or off mirrors, it has a map of its own.
 SPARKLING := cornell fractal columns columns-cached
 base_of = $(patsubst %-cached,%,$1)

@@ -6,7 +6,7 @@ PLAN_RUNS ?= 20
 PLAN_SECONDS ?= 300
 export PLAN_SIZE PLAN_RUNS PLAN_SECONDS
 
-plan-coverage: out/plans.csv ## How often pm-plan's promise is kept: seven rooms, three errors, 20 seeds each (hours; PLAN_SECONDS=8: half an hour)
+plan-coverage: out/plans.csv ## How often pm-plan's promise is kept: eight rooms, three errors, 20 seeds each (hours; PLAN_SECONDS=8: half an hour)
 	@awk -F, -f scripts/plan-coverage.awk $<
 	@cmp -s $< scripts/plans.csv || echo 'The report shows other numbers: cp $< scripts/plans.csv'
 
@@ -22,5 +22,5 @@ out/plans/%.exr: $$(call plan_scene,$$*) $(call made_with,PLAN_SIZE PLAN_REFEREN
 ROOM ?= cornell-diffuse
 export ROOM
 
-need: out/need.csv ## What a scene needs: error, seconds and bytes of photons x neighbours x rays, ROOM=cornell-diffuse (twenty minutes)
-	@awk -F, -f scripts/need.awk $<
+need: out/need.csv out/need-plans.csv ## What a scene needs: error, seconds and bytes of photons x neighbours x rays beside pm-plan's choices, ROOM=cornell-diffuse (half an hour)
+	@awk -F, -f scripts/need.awk $^

@@ -10,6 +10,7 @@ mod grid;
 mod model;
 mod recipe;
 mod sphere;
+mod sunlit;
 
 pub use model::Model;
 pub use recipe::Recipe;
@@ -19,11 +20,12 @@ use fractal::Fractal;
 use gap::Gap;
 use pm_registry::Registry;
 use sphere::Sphere;
+use sunlit::Sunlit;
 
 /// All scenes that can be made.
 #[must_use]
 pub fn recipes() -> Registry<dyn Recipe> {
-    Registry::new("scene", &[&Fractal, &Columns, &Sphere, &Gap])
+    Registry::new("scene", &[&Fractal, &Columns, &Sphere, &Gap, &Sunlit])
 }
 
 #[cfg(test)]

@@ -43,6 +43,31 @@ pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64
     found
 }
 
+/// For each error, the cheapest recipe that is predicted to have no more; none where nothing does.
+#[must_use]
+pub fn frontier(model: &Model, pixels: f64, errors: &[f64], caustics: u64) -> Vec<Choice> {
+    let found = errors.iter().filter_map(|&error| cheapest(model, skeletons(caustics), pixels, error));
+    found.collect()
+}
+
+/// The same where maps are to have so many photons, and to be asked for so many neighbours.
+#[must_use]
+pub fn frontier_of_map(
+    model: &Model,
+    pixels: f64,
+    errors: &[f64],
+    caustics: u64,
+    (photons, k): (u64, u32),
+) -> Vec<Choice> {
+    let fixed = || skeletons(caustics).map(|recipe| Recipe { photons, k, ..recipe });
+    errors.iter().filter_map(|&error| cheapest(model, fixed(), pixels, error)).collect()
+}
+
+fn cheapest(model: &Model, of: impl Iterator<Item = Recipe>, pixels: f64, error: f64) -> Option<Choice> {
+    let found = of.filter_map(|recipe| least_samples(model, recipe, pixels, error, 0.0));
+    found.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
 /// The recipe of least error that costs at most so much, by its estimate without its interval.
 #[must_use]
 pub fn nearest_in(model: &Model, pixels: f64, cost: f64, caustics: u64) -> Option<Choice> {

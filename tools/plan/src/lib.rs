@@ -44,12 +44,12 @@ mod traced;
 mod traffic;
 mod trial;
 
-pub use choice::{Choice, Rival, choose, nearest_in};
+pub use choice::{Choice, Rival, choose, frontier, frontier_of_map, nearest_in};
 pub use estimate::Estimate;
 pub use law::{Law, Point};
 pub use model::{Model, Parts};
-pub use planning::{Plan, Tried, Wanted, plan};
-pub use recipe::{CAUSTICS_K, MOST_SEEN, Recipe};
+pub use planning::{NoPlan, Plan, Tried, Untried, Wanted, plan};
+pub use recipe::{CAUSTICS_K, MOST_SEEN, PAPERS_MAP, Recipe};
 pub use survey::{Effort, Survey};
 pub use task::{PlanError, Task};
 pub use times::Times;

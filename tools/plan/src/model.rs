@@ -53,10 +53,16 @@ impl Model {
     #[must_use]
     pub fn cost(&self, recipe: &Recipe, pixels: f64) -> f64 {
         let seconds = self.times().of(recipe, pixels);
-        self.survey.traffic.as_ref().map_or(seconds, |traffic| traffic.of(recipe, pixels) + BYTES_A_SECOND * seconds)
+        self.fetched(recipe, pixels).map_or(seconds, |bytes| bytes + BYTES_A_SECOND * seconds)
     }
 
-    /// The same where seconds are to be saved.
+    /// Bytes that a recipe fetches for so many pixels, where these are what is to be saved.
+    #[must_use]
+    pub fn fetched(&self, recipe: &Recipe, pixels: f64) -> Option<f64> {
+        self.survey.traffic.as_ref().map(|traffic| traffic.of(recipe, pixels))
+    }
+
+    /// The same model where seconds are to be saved.
     #[must_use]
     pub fn by_time(&self) -> Self {
         let survey = Survey { traffic: None, ..self.survey.clone() };

@@ -19,6 +19,8 @@ pub struct Wanted {
     pub error: f64,
     /// With what chance it shall hold.
     pub confidence: f64,
+    /// Seconds of processor time that the picture may take.
+    pub seconds: f64,
     /// How much is measured.
     pub effort: Effort,
 }
@@ -73,22 +75,58 @@ const STRICTER: f64 = 0.97;
 /// Pixels that a trial makes, each twice: times those of a survey, and as a share of a large picture's.
 const MORE_TRIED: u32 = 4;
 const SHARE_TRIED: f64 = 0.004;
+/// Fewer say nothing.
+const LEAST_TRIED: f64 = 16.0;
+/// The survey's seconds are those of parts, and may be off by so much.
+const BY_FAR: f64 = 1.5;
+/// Seconds that a trial may take however little the picture takes, and as a share of the picture's; each pixel is made twice, with
+/// two maps.
+const LONG: f64 = 20.0;
+const SHARE_OF_TIME: f64 = 0.02;
+const TIMES_MADE: f64 = 3.0;
+/// Trials may take so many seconds, or this share of the picture's: what none has shown by then is not promised.
+const PATIENCE: (f64, f64) = (120.0, 0.2);
+/// Gather rays of a trial's pixels that there is memory for: a gigabyte.
+const MOST_RAYS: f64 = 16e6;
 /// Photons are traced for a survey at most.
 const MOST_SURVEYED: u64 = 2_560_000;
 /// Share of a render that a larger survey may take.
 const WORTH: f64 = 0.03;
 
-/// Plans a picture; `None` where no recipe will do.
+/// What is known where there is no plan.
+#[derive(Clone, Debug)]
+pub struct NoPlan {
+    /// What pictures cost here.
+    pub model: Model,
+    /// What would do by the survey alone, and why it is not promised; none where nothing does.
+    pub untried: Option<(Choice, Untried)>,
+}
+
+/// Why a recipe was not tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Untried {
+    /// The picture would take far more time than it may.
+    TooSlow,
+    /// A trial would take so many seconds, far more than it is worth beside the picture.
+    TrialTooSlow(f64),
+}
+
+/// Plans a picture.
 ///
 /// # Errors
 /// If nothing is seen or lit.
-pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, PlanError> {
+pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, PlanError> {
     let start = (task.clock)();
+    (task.doing)("edges of lamps");
     let preview = Preview::of(task);
     let mut effort = wanted.effort;
+    if task.search_bytes.is_some() {
+        (task.doing)("bytes of searches, by photons and neighbours");
+    }
     let traffic = task.search_bytes.map(Traffic::measure).transpose().map_err(PlanError::Traffic)?;
     let (mut model, mut best);
     loop {
+        (task.doing)(&format!("survey of {} pixels, with {} photons", effort.pixels, effort.photons));
         let before = (task.clock)();
         model = Model::new(Survey { traffic: traffic.clone(), ..Survey::measure(task, &preview, effort)? });
         let took = (task.clock)() - before;
@@ -97,19 +135,38 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
         best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
         // Extrapolated far beyond the largest map: a larger one is traced if that is cheap beside what is planned.
         let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
-        let cost = best.first().map_or(f64::INFINITY, |choice| model.times().of(&choice.recipe, task.pixels()));
+        let takes = |choice: &Choice| model.times().of(&choice.recipe, task.pixels());
+        let cost = best.first().map_or(f64::INFINITY, takes).min(wanted.seconds);
         if !beyond || effort.photons >= MOST_SURVEYED || took * 4.0 > cost * WORTH {
             break;
         }
         effort.photons *= 4;
     }
+    // Trials of it would take hours themselves.
+    if let Some(&choice) =
+        best.first().filter(|best| model.times().of(&best.recipe, task.pixels()) > BY_FAR * wanted.seconds)
+    {
+        return Ok(Err(NoPlan { model, untried: Some((choice, Untried::TooSlow)) }));
+    }
     let bound = |error: &Estimate| error.upper(wanted.surer());
     let does = |error: &Estimate| bound(error) <= wanted.error * wanted.error;
+    let model_of_time = model.times().clone();
     let mut evidence = Evidence::new(model);
     let mut trials: Vec<Tried> = vec![];
+    let mut too_dear = None;
     for trial in 1..=TRIALS {
         let Some(&choice) = best.first() else { break };
-        let pixels = pixels_of_trials(task, wanted.effort);
+        let takes = model_of_time.of(&choice.recipe, task.pixels());
+        let pixels = pixels_of_trials(task, wanted.effort, takes, &choice.recipe);
+        // Photons of both maps are traced whole, however few pixels are made.
+        let of_photons = model_of_time.of(&choice.recipe, 0.0);
+        let trying = 2.0 * of_photons + TIMES_MADE * f64::from(pixels) * (takes - of_photons) / task.pixels();
+        let spent = if trials.is_empty() { 0.0 } else { (task.clock)() - start };
+        if spent + trying > PATIENCE.0.max(PATIENCE.1 * takes) {
+            too_dear = trials.is_empty().then_some((choice, Untried::TrialTooSlow(trying)));
+            break;
+        }
+        (task.doing)(&format!("trial {trial} of {TRIALS} at most, on {pixels} pixels"));
         let found = Trial::run(task, &preview, &evidence.model(), &choice.recipe, pixels, u64::from(trial))?;
         trials.push(Tried { choice, error: found.total });
         evidence.add(&choice.recipe, found);
@@ -144,15 +201,21 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, Model>, Pla
             trials,
             seconds,
         }),
-        None => Err(model),
+        None => Err(NoPlan { model, untried: too_dear }),
     })
 }
 
-/// Pixels of a trial: the larger the picture, the more are worth it.
-fn pixels_of_trials(task: &Task<'_>, effort: Effort) -> u32 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small share of the pixels")]
-    let share = (task.pixels() * SHARE_TRIED) as u32;
-    (MORE_TRIED * effort.pixels).max(share)
+/// Pixels of a trial: the larger the picture, the more are worth it; but neither more time than that nor more memory than there
+/// may be, or a picture that takes hours would be planned for days.
+fn pixels_of_trials(task: &Task<'_>, effort: Effort, seconds: f64, recipe: &Recipe) -> u32 {
+    let of_picture = task.pixels();
+    let wanted = (of_picture * SHARE_TRIED).max(f64::from(MORE_TRIED * effort.pixels));
+    let rays = f64::from(recipe.samples) * f64::from(recipe.gathers);
+    let budget = LONG.max(seconds * SHARE_OF_TIME);
+    let affordable = (budget * of_picture / (TIMES_MADE * seconds.max(f64::MIN_POSITIVE))).min(MOST_RAYS / rays);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "fewer than a picture has")]
+    let pixels = wanted.min(affordable).max(LEAST_TRIED) as u32;
+    pixels
 }
 
 /// The choice with the relative spread that trials leave, not that of surveys.

@@ -21,6 +21,9 @@ pub struct Recipe {
 pub const MOST_SEEN: u32 = 16;
 /// Nearest photons of caustics that a point seen asks for.
 pub const CAUSTICS_K: u32 = 50;
+/// Photons of the paper's map (section 4), and how many of them a search is for: of the numbers that are measured the one next to
+/// its 100.
+pub const PAPERS_MAP: (u64, u32) = (450_000, 80);
 /// Gather and shadow rays of a point that are measured, and planned with.
 pub(crate) const DESIGNS: [[u32; 2]; 6] = [[1, 1], [1, 4], [4, 1], [4, 4], [16, 4], [16, 16]];
 /// Least and most eye rays for each pixel. A single one goes through the pixel's middle, and does not smooth edges.

@@ -20,6 +20,8 @@ pub struct Task<'a> {
     pub seed: u64,
     /// Seconds of processor time so far.
     pub clock: &'a dyn Fn() -> f64,
+    /// Is told what is done next.
+    pub doing: &'a dyn Fn(&str),
     /// Where bytes are what is to be saved: those of a search.
     pub search_bytes: Option<&'a SearchBytes<'a>>,
 }

@@ -54,6 +54,20 @@ fn the_cheapest_is_found() {
 }
 
 #[test]
+fn frontiers_are_of_the_cheapest_for_each_error() {
+    let model = world(1e7);
+    let errors = [0.02, 0.03, 0.1, 1e-9];
+    let found = frontier(&model, 1e4, &errors, 0);
+    let by_force = errors.map(|error| by_force(&model, 1e4, error));
+    // The last is had by nothing.
+    assert_eq!(found.len(), 3);
+    assert!(found.iter().zip(by_force).all(|(choice, cost)| (choice.cost / cost - 1.0).abs() < 1e-12));
+    let fixed = frontier_of_map(&model, 1e4, &errors, 0, (80_000, 40));
+    assert!(fixed.iter().all(|choice| (choice.recipe.photons, choice.recipe.k) == (80_000, 40)));
+    assert!(!fixed.is_empty() && fixed.iter().zip(&found[3 - fixed.len()..]).all(|(a, b)| a.cost >= b.cost));
+}
+
+#[test]
 fn blur_asks_for_photons() {
     let [sharp, blurred] = [0.0, 1e7].map(|scale| choose(&world(scale), 1e4, 0.03, 0.0, 0)[0].recipe);
     assert!(blurred.share() < sharp.share(), "{sharp:?} {blurred:?}");

@@ -5,6 +5,7 @@ use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
 use pm_report::Format;
 use pm_size::Bytes;
+use std::path::PathBuf;
 
 /// Say how little a picture needs: the cheapest pm-picture of an error that is wanted, its error and time, and what it beats.
 ///
@@ -15,7 +16,7 @@ use pm_size::Bytes;
 ///
 /// With --on-chip, bytes are saved: those that the searches of gather rays fetch from the photon map through a cache of 128-byte
 /// lines, row by row, tile by tile, or along a Hilbert curve within tiles whose searches wait on the chip. They are measured on
-/// samples of the picture. Searches for caustics, and pictures themselves, are not counted.
+/// samples of the picture, those for caustics too; pictures themselves are not counted.
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -30,8 +31,8 @@ pub struct Args {
     #[arg(long, value_name = "CHANCE", default_value = "95%", value_parser = confidence)]
     pub(super) confidence: f64,
     /// Processor time that the picture may take at most, in seconds
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    pub(super) seconds: Option<f64>,
+    #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
+    pub(super) seconds: f64,
     /// Save bytes fetched from memory rather than seconds: so much room there is on the chip for a cache and an order's store
     #[arg(long, value_name = "SIZE", value_parser = on_chip)]
     pub(super) on_chip: Option<Bytes>,
@@ -41,6 +42,12 @@ pub struct Args {
     /// Pictures a second that --bandwidth has to do for
     #[arg(long, value_name = "N", default_value = "1", requires = "bandwidth", value_parser = seconds)]
     pub(super) fps: f64,
+    /// Say too how far the picture will look off: the mean of FLIP, as pm-view's ldr_flip, measured on small pictures
+    #[arg(long)]
+    pub(super) flip: bool,
+    /// Draw what errors cost here, by the best recipes and by the paper's map, and what was tried
+    #[arg(long, value_name = "FILE.svg", value_parser = drawing)]
+    pub(super) chart: Option<PathBuf>,
     /// How the plan is written: in words, or as a row of numbers
     #[arg(long, default_value = "table", value_parser = choice::<Format>())]
     pub(super) format: Format,
@@ -65,6 +72,7 @@ pub struct Args {
 const EXAMPLES: &str = "\
 Examples:
   pm-plan --error 2%
+  pm-plan --error 5% --flip --chart frontier.svg
   pm-plan --error 5% --on-chip 1M --bandwidth 35GB/s --fps 10
   pm-plan room.obj --eye 0,1.6,4 --look-at 0,1,0 --error 5% --seconds 30";
 
@@ -80,6 +88,12 @@ fn error(text: &str) -> Result<f64, &'static str> {
 
 fn confidence(text: &str) -> Result<f64, &'static str> {
     percent(text, 50.0, 99.9).ok_or("percent from 50% to 99.9% are expected, such as 95%")
+}
+
+fn drawing(text: &str) -> Result<PathBuf, &'static str> {
+    let path = PathBuf::from(text);
+    let named = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+    named.then_some(path).ok_or("a drawing is expected, such as frontier.svg")
 }
 
 fn on_chip(text: &str) -> Result<Bytes, String> {

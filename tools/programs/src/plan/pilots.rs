@@ -63,23 +63,34 @@ impl Pilots<'_> {
     }
 
     /// A picture of the same shape with this share of the pixels.
-    fn scaled(&self, share: f64) -> [u32; 2] {
+    pub(super) fn scaled(&self, share: f64) -> [u32; 2] {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "smaller than a size of a picture")]
         let side = |side: u32| (f64::from(side) * share.sqrt()).ceil().max(1.0) as u32;
         self.size.map(side)
     }
 
     /// Seconds of processor time of a picture.
-    fn one(&self, recipe: &Recipe, [width, height]: [u32; 2], number: u64) -> anyhow::Result<f64> {
+    fn one(&self, recipe: &Recipe, size: [u32; 2], number: u64) -> anyhow::Result<f64> {
         let folder = tempfile::tempdir().context("a folder for a small picture")?;
-        let image = folder.path().join("pilot.exr").display().to_string();
+        let before = clock::seconds_of_others();
+        self.small(recipe, size, number, &folder.path().join("pilot.exr").display().to_string())?;
+        Ok(clock::seconds_of_others() - before)
+    }
+
+    /// Makes a picture of another size.
+    pub(super) fn small(
+        &self,
+        recipe: &Recipe,
+        [width, height]: [u32; 2],
+        number: u64,
+        image: &str,
+    ) -> anyhow::Result<()> {
         let seed = (self.seed ^ 0x0070_696c_6f74) + number;
-        let options = ["-q".to_owned(), "--seed".to_owned(), seed.to_string(), "--image".to_owned(), image];
+        let options = ["-q".to_owned(), "--seed".to_owned(), seed.to_string(), "--image".to_owned(), image.to_owned()];
         let size = ["--size".to_owned(), format!("{width}x{height}")];
         let camera = self.camera.iter().filter(|word| !word.starts_with("--size=")).chain(self.scene).cloned();
-        let before = clock::seconds_of_others();
         Pipe::new("pm-picture", words(recipe).into_iter().chain(options).chain(size).chain(camera)).run()?;
-        Ok(clock::seconds_of_others() - before)
+        Ok(())
     }
 }
 

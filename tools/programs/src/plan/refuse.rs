@@ -7,7 +7,7 @@ use super::traffic::Fetched;
 use crate::cli::{Common, refusal, usage};
 use crate::setting::SceneArgs;
 use pm_light::scene::MaterialKind;
-use pm_plan::{Choice, Model, Plan, nearest_in};
+use pm_plan::{Choice, Model, Plan, Untried, nearest_in};
 
 /// Refuses a scene whose glossy lobes are left out without a word: its picture would be planned well and be another scene's.
 pub(super) fn paint_left_out(args: &Args) -> anyhow::Result<()> {
@@ -101,17 +101,41 @@ pub(super) fn too_much(
 }
 
 /// The cheapest recipe takes too long.
-pub(super) fn too_slow(
+pub(super) fn too_slow(args: &Args, plan: &Plan, time: &Time, pixels: f64, caustics: u64) -> anyhow::Error {
+    let upper = time.total.upper(args.confidence);
+    let needed = format!("--seconds {}: an error of {} takes {upper:.1} s", args.seconds, percent(args.error));
+    // The model's seconds are those of its parts; the pilots say what they come to in pipes.
+    let budget = args.seconds * plan.choice.cost / time.total.value;
+    nearest(&needed, "in that time", plan, nearest_in(&plan.model, pixels, budget, caustics))
+}
+
+/// What would do by the survey was not even tried.
+pub(super) fn untried(
     args: &Args,
-    plan: &Plan,
-    time: &Time,
-    seconds: f64,
+    model: &Model,
+    choice: &Choice,
+    why: Untried,
     pixels: f64,
     caustics: u64,
 ) -> anyhow::Error {
-    let upper = time.total.upper(args.confidence);
-    let needed = format!("--seconds {seconds}: an error of {} takes {upper:.1} s", percent(args.error));
-    // The model's seconds are those of its parts; the pilots say what they come to in pipes.
-    let budget = seconds * plan.choice.cost / time.total.value;
-    nearest(&needed, "in that time", plan, nearest_in(&plan.model, pixels, budget, caustics))
+    let recipe = super::report::recipe(&choice.recipe);
+    let (wanted, takes) = (percent(args.error), model.times().of(&choice.recipe, pixels));
+    if let Untried::TrialTooSlow(trying) = why {
+        return refusal(format!(
+            "--error {wanted}: by the survey {recipe} would do in some {takes:.0} s of processor time, but to try that would take \
+             {trying:.0} s, and nothing is promised untried; try a larger --error, or a larger --size for which it is worth it"
+        ));
+    }
+    let near = nearest_in(&model.by_time(), pixels, args.seconds, caustics);
+    let near = near.map_or_else(
+        || "nothing that is planned with does in that time".to_owned(),
+        |near| {
+            let error = percent(root(near.parts.total().value));
+            format!("nearest in that time is an error of about {error}, by {}", super::report::recipe(&near.recipe))
+        },
+    );
+    refusal(format!(
+        "--seconds {}: an error of {wanted} takes some {takes:.0} s of processor time, by the survey; {near}",
+        args.seconds
+    ))
 }

@@ -4,7 +4,7 @@ use super::args::Args;
 use super::pilots::Time;
 use super::traffic::Fetched;
 use crate::pipe::Pipe;
-use pm_plan::{Choice, Estimate, Plan, Recipe, Rival};
+use pm_plan::{Choice, Estimate, PAPERS_MAP, Plan, Recipe, Rival};
 use pm_report::{Column, Table, Value};
 use std::fmt::Write as _;
 
@@ -15,6 +15,10 @@ pub(super) struct Report<'a> {
     pub(super) time: &'a Time,
     /// What orders fetch, the least first; none where it was not asked.
     pub(super) fetched: &'a [Fetched],
+    /// The mean of FLIP; none where it was not asked.
+    pub(super) flip: Option<Estimate>,
+    /// What would have no more error with the paper's map.
+    pub(super) usual: Option<Choice>,
     /// Seconds of processor time that planning took, without the small pictures.
     pub(super) own: f64,
     pub(super) pipe: Pipe,
@@ -92,6 +96,10 @@ impl Report<'_> {
             share(parts.photons.value),
             share(parts.bias.value)
         ));
+        if let Some(flip) = &self.flip {
+            let looks = between(flip, &|flip| format!("{:.4}", flip.max(0.0)));
+            line(format!("looks     off by FLIP {looks}, the mean over small pictures"));
+        }
         let total = between(&time.total, &seconds);
         line(format!("time      {total} s of processor time for {width}x{height} pixels"));
         let shown = |value: f64| bytes(value);
@@ -101,7 +109,7 @@ impl Report<'_> {
             line(format!("{label:<9} {} fetched: {order}, a cache of {cache}", between(bytes, &shown)));
         }
         if let Some(least) = self.fetched.first() {
-            line(format!("          in full: {}", least.pipe));
+            least.pipes.iter().for_each(|pipe| line(format!("          in full: {pipe}")));
         }
         for tried in &plan.trials {
             line(format!(
@@ -113,6 +121,7 @@ impl Report<'_> {
             ));
         }
         line(format!("next best {}", self.rival()));
+        line(format!("saves     {}", self.saved()));
         let all = own + time.pilots;
         let dear = all / time.total.value;
         line(format!(
@@ -132,10 +141,14 @@ impl Report<'_> {
         let [low, high] = two_sided(&plan.error, args.confidence).map(root);
         let [fast, slow] = two_sided(&time.total, args.confidence).map(|seconds| seconds.max(0.0));
         let real = |x: f64| Value::Float(x, 4);
+        let (times, pixels) = (plan.model.times(), f64::from(*width) * f64::from(*height));
         let least = self.fetched.first();
         let fetched = least.map(|least| least.bytes);
         let [low_bytes, high_bytes] = fetched.map_or([f64::NAN; 2], |bytes| two_sided(&bytes, args.confidence));
         let whole = |x: u32| Value::Int(x.into());
+        let pipes = least.map_or_else(String::new, |least| {
+            least.pipes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+        });
         let cells = [
             (Column::text("pipe"), Value::Text(pipe.to_string())),
             (Column::number("wanted"), real(args.error)),
@@ -159,11 +172,16 @@ impl Report<'_> {
             (Column::number("k"), whole(k)),
             (Column::number("caustics"), Value::Int(caustics)),
             (Column::text("next_best"), Value::Text(self.rival())),
+            (Column::number("flip"), real(self.flip.map_or(f64::NAN, |flip| flip.value))),
+            (
+                Column::number("seconds_of_papers_map"),
+                real(self.usual.map_or(f64::NAN, |usual| times.of(&usual.recipe, pixels))),
+            ),
             (Column::text("order"), Value::Text(least.map_or_else(String::new, |least| least.order.to_string()))),
             (Column::number("bytes_fetched"), real(fetched.map_or(f64::NAN, |bytes| bytes.value))),
             (Column::number("bytes_fetched_low"), real(low_bytes)),
             (Column::number("bytes_fetched_high"), real(high_bytes)),
-            (Column::text("traffic_pipe"), Value::Text(least.map_or_else(String::new, |least| least.pipe.to_string()))),
+            (Column::text("traffic_pipe"), Value::Text(pipes)),
         ];
         let (columns, row) = cells.into_iter().unzip();
         let mut table = Table::new(columns);
@@ -171,11 +189,33 @@ impl Report<'_> {
         table
     }
 
+    /// By what the recipe is cheaper than one with the paper's map.
+    fn saved(&self) -> String {
+        let (photons, k) = PAPERS_MAP;
+        let map = format!("{photons} photons with k {k}, next to the paper's 100");
+        let pixels = self.size.map(f64::from).iter().product();
+        let fetched = |choice: &Choice| self.plan.model.fetched(&choice.recipe, pixels);
+        let Some(usual) = self.usual else { return format!("a picture that could not be: {map}, do not do") };
+        let seconds = |choice: &Choice| self.plan.model.times().of(&choice.recipe, pixels);
+        let times = seconds(&usual) / seconds(&self.plan.choice);
+        let of_bytes = fetched(&usual).zip(fetched(&self.plan.choice)).filter(|(_, own)| *own > 0.0);
+        let of_bytes =
+            of_bytes.map_or_else(String::new, |(usual, own)| format!(", {:.1} times the bytes", usual / own));
+        format!("{map}, take {times:.1} times the time{of_bytes} for this error, by the parts")
+    }
+
     /// Who came next, and why it lost.
     fn rival(&self) -> String {
         let chosen = &self.plan.choice;
         let by = |other: &Choice| other.cost / chosen.cost;
         match &self.plan.rival {
+            Some(Rival::Dearer(other)) if by(other) < 1.0 => {
+                format!(
+                    "{}: {:.2} times the cost, by the model: too little is saved to try it",
+                    recipe(&other.recipe),
+                    by(other)
+                )
+            }
             Some(Rival::Dearer(other)) => {
                 format!("{}: would do, and costs {:.2} times as much", recipe(&other.recipe), by(other))
             }

@@ -4,7 +4,7 @@
 use crate::pipe::Pipe;
 use anyhow::Context as _;
 use pm_orders::StoredQuery;
-use pm_plan::{Estimate, Recipe, Trouble};
+use pm_plan::{CAUSTICS_K, Estimate, MOST_SEEN, Recipe, Trouble};
 use pm_report::sheet::{Sheet, number};
 use pm_sampling::{CONFIDENCE, Spread, student_quantile};
 use pm_size::Bytes;
@@ -20,8 +20,8 @@ pub(super) struct Chip<'a> {
     seed: u64,
     on_chip: u64,
     folder: tempfile::TempDir,
-    /// Numbers of photons of which there is a map in the folder.
-    maps: RefCell<BTreeSet<u64>>,
+    /// Which maps there are in the folder.
+    maps: RefCell<BTreeSet<String>>,
 }
 
 /// In which order searches come.
@@ -35,6 +35,55 @@ pub(super) enum Order {
     Hilbert(u32),
 }
 
+/// Which map is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Searches {
+    /// That of all photons, by gather rays.
+    Gather,
+    /// That of caustics, where eye rays end.
+    Caustics,
+}
+
+impl Searches {
+    /// Those that a recipe makes.
+    fn of(recipe: &Recipe) -> &'static [Self] {
+        if recipe.caustics > 0 { &[Self::Gather, Self::Caustics] } else { &[Self::Gather] }
+    }
+
+    /// Searches of a pixel, about.
+    fn of_pixel(self, recipe: &Recipe) -> u64 {
+        match self {
+            Self::Gather => u64::from(recipe.samples) * u64::from(recipe.gathers),
+            Self::Caustics => u64::from(recipe.samples.min(MOST_SEEN)),
+        }
+    }
+
+    /// Photons of the map, and how many of them a search is for.
+    fn map(self, recipe: &Recipe) -> (u64, u32) {
+        match self {
+            Self::Gather => (recipe.photons, recipe.k),
+            Self::Caustics => (recipe.caustics, CAUSTICS_K),
+        }
+    }
+
+    /// The rays that make them: options of `pm-queries`.
+    fn rays(self, recipe: &Recipe) -> Vec<String> {
+        let Recipe { samples, gathers, caustics, .. } = recipe;
+        words(&match self {
+            Self::Gather if *caustics > 0 => format!("-q --samples {samples} --gathers {gathers} --no-caustics"),
+            Self::Gather => format!("-q --samples {samples} --gathers {gathers}"),
+            Self::Caustics => format!("-q --samples {} --direct-visualisation", self.of_pixel(recipe)),
+        })
+    }
+
+    fn file(self) -> &'static str {
+        match self {
+            Self::Gather => "map.pmp",
+            Self::Caustics => "caustics.pmp",
+        }
+    }
+}
+
 /// What an order fetches.
 pub(super) struct Fetched {
     pub(super) order: Order,
@@ -42,8 +91,8 @@ pub(super) struct Fetched {
     pub(super) bytes: Estimate,
     /// Bytes of the cache: what is on the chip, less the order's store.
     pub(super) cache: u64,
-    /// How it is measured in full.
-    pub(super) pipe: Pipe,
+    /// How it is measured in full, for each map.
+    pub(super) pipes: Vec<Pipe>,
 }
 
 /// Searches of a sample, about: of fewer all are made.
@@ -106,29 +155,38 @@ impl<'a> Chip<'a> {
     fn store(&self, recipe: &Recipe, order: Order) -> u64 {
         match order {
             Order::Scanline | Order::Tiled => 0,
-            Order::Hilbert(side) => u64::from(side * side) * rays(recipe) * StoredQuery::Full.bytes(),
+            Order::Hilbert(side) => {
+                let most = Searches::of(recipe).iter().map(|searches| searches.of_pixel(recipe)).max().unwrap_or(0);
+                u64::from(side * side) * most * StoredQuery::Full.bytes()
+            }
         }
     }
 
     fn fetched(&self, recipe: &Recipe, order: Order) -> anyhow::Result<Fetched> {
         let cache = ((self.on_chip - self.store(recipe, order)) / CACHE_STEP).max(1) * CACHE_STEP;
-        let map = self.map(recipe.photons)?;
-        let printed = self.pipe(recipe, order, cache, &map, &self.sample(recipe, order)).with(quiet_csv()).run()?;
-        let bytes = read(&printed, cache)?;
-        Ok(Fetched { order, bytes, cache, pipe: self.pipe(recipe, order, cache, "map.pmp", &[]) })
+        let mut bytes = Estimate::default();
+        let mut pipes = vec![];
+        for &searches in Searches::of(recipe) {
+            let map = self.map(searches, searches.map(recipe).0)?;
+            let sample = self.sample(recipe, searches, order);
+            let printed = self.pipe(recipe, searches, order, cache, &map, &sample).with(quiet_csv()).run()?;
+            bytes = bytes.plus(read(&printed, cache)?);
+            pipes.push(self.pipe(recipe, searches, order, cache, searches.file(), &[]));
+        }
+        Ok(Fetched { order, bytes, cache, pipes })
     }
 
     /// Which rays are cast: options of `pm-queries`; none where all are.
-    fn sample(&self, recipe: &Recipe, order: Order) -> Vec<String> {
+    fn sample(&self, recipe: &Recipe, searches: Searches, order: Order) -> Vec<String> {
         let [width, height] = self.size.map(u64::from);
-        if width * height * rays(recipe) <= 2 * SAMPLE {
+        if width * height * searches.of_pixel(recipe) <= 2 * SAMPLE {
             return vec![];
         }
         let seed = ["--sample-seed".to_owned(), self.seed.to_string()];
         let side = match order {
             Order::Scanline => {
                 let [window, warm_up] = WINDOW;
-                let of_row = width * rays(recipe);
+                let of_row = width * searches.of_pixel(recipe);
                 let warm_up = warm_up.min(of_row.saturating_sub(window));
                 let windows = (SAMPLE / (window + warm_up)).min(height);
                 let numbers = [("--only-tiles", windows), ("--window", window.min(of_row)), ("--warm-up", warm_up)];
@@ -140,20 +198,24 @@ impl<'a> Chip<'a> {
         };
         let side = u64::from(side);
         let all = width.div_ceil(side) * height.div_ceil(side);
-        let tiles = (SAMPLE / (side * side * rays(recipe))).clamp(8, 64);
+        let tiles = (SAMPLE / (side * side * searches.of_pixel(recipe))).clamp(8, 64);
         if tiles >= all {
             return vec![];
         }
         ["--only-tiles".to_owned(), tiles.to_string()].into_iter().chain(seed).collect()
     }
 
-    /// The searches of the gather rays in this order, and the cache that they go through.
-    fn pipe(&self, recipe: &Recipe, order: Order, cache: u64, map: &str, sample: &[String]) -> Pipe {
-        let Recipe { samples, gathers, k, caustics, .. } = recipe;
-        let mut rays = words(&format!("-q --samples {samples} --gathers {gathers}"));
-        if *caustics > 0 {
-            rays.push("--no-caustics".to_owned());
-        }
+    /// The searches in this order, and the cache that they go through.
+    fn pipe(
+        &self,
+        recipe: &Recipe,
+        searches: Searches,
+        order: Order,
+        cache: u64,
+        map: &str,
+        sample: &[String],
+    ) -> Pipe {
+        let mut rays = searches.rays(recipe);
         if let Order::Tiled | Order::Hilbert(_) = order {
             let side = if let Order::Hilbert(side) = order { side } else { TILE };
             rays.extend(words(&format!("--order tiled --tile {side}")));
@@ -164,25 +226,22 @@ impl<'a> Chip<'a> {
             let store = Bytes(self.store(recipe, order));
             pipe = pipe.then("pm-reorder", words(&format!("-q hilbert --per batch --storage {store}")));
         }
+        let (_, k) = searches.map(recipe);
         let gather = words("-q").into_iter().chain([map.to_owned()]).chain(words(&format!("-k {k}")));
         pipe.then("pm-gather", gather).then("pm-cachesim", words(&format!("--sizes {} --ways full", Bytes(cache))))
     }
 
     /// A map of so many photons, as the picture's will be.
-    fn map(&self, photons: u64) -> anyhow::Result<String> {
-        let path = self.folder.path().join(format!("{photons}.pmp")).display().to_string();
-        if self.maps.borrow_mut().insert(photons) {
-            let options = words(&format!("-q -n {photons} --seed {}", self.seed));
+    fn map(&self, searches: Searches, photons: u64) -> anyhow::Result<String> {
+        let path = self.folder.path().join(format!("{photons}.{}", searches.file())).display().to_string();
+        if self.maps.borrow_mut().insert(path.clone()) {
+            let which = if searches == Searches::Caustics { "--caustics " } else { "" };
+            let options = words(&format!("{which}-q -n {photons} --seed {}", self.seed));
             let output = ["-o".to_owned(), path.clone()];
             Pipe::new("pm-photons", options.into_iter().chain(output).chain(self.scene.iter().cloned())).run()?;
         }
         Ok(path)
     }
-}
-
-/// Gather rays of a pixel.
-fn rays(recipe: &Recipe) -> u64 {
-    u64::from(recipe.samples) * u64::from(recipe.gathers)
 }
 
 fn words(line: &str) -> Vec<String> {
