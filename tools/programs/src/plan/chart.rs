@@ -64,5 +64,5 @@ pub(super) fn svg(plan: &Plan, wanted: f64, pixels: f64, caustics: u64) -> anyho
         frontier: false,
         legend: true,
     };
-    Ok(plot.svg(&look))
+    Ok(plot.picture(&look))
 }
