@@ -8,6 +8,7 @@ mod encode;
 mod groups;
 mod heap_walk;
 mod in_turns;
+mod kept;
 mod reader;
 mod varint;
 mod writer;

@@ -4,7 +4,6 @@
 //! by symbol, each with the frequencies of its context: what was done last at this node, beside it, and on the way there. Searches of
 //! neighbouring places walk alike, so walks are coded by the first leaf that they come to, and the order goes along.
 
-mod kept;
 mod memory;
 mod planes;
 mod rans;
@@ -22,7 +21,8 @@ use segments::Walks;
 use tables::{Counts, Tables, decision};
 use units::{DECISIONS, way};
 
-pub(super) use kept::Kept;
+pub(super) use planes::Joined;
+pub(super) use segments::has_tree;
 
 /// Most searches of a block that is packed so.
 pub(super) const MOST_SEARCHES: u32 = 1 << 16;

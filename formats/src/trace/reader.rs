@@ -1,8 +1,8 @@
 //! Traces, read a block at a time.
 
 use super::access::{Access, TraceSink};
-use super::archive::Kept;
 use super::decode::decode_searches;
+use super::kept::Kept;
 use crate::container::{Block, BlockMeta, BlockReader, End, Header, StreamKind};
 use crate::digest::Tally;
 use crate::error::Result;

@@ -36,14 +36,14 @@ pub(super) fn join(planes: Planes<&[u8]>) -> Vec<u8> {
 
 /// Payloads of blocks that follow one another, put together.
 #[derive(Default)]
-pub(super) struct Joined {
+pub(in crate::trace) struct Joined {
     planes: Planes<Vec<u8>>,
     last_pixel: i64,
 }
 
 impl Joined {
     /// Puts the searches of one more behind those so far; `None` if it does not hold so many, and worthless then.
-    pub(super) fn push(&mut self, payload: &[u8], searches: u32) -> Option<()> {
+    pub(in crate::trace) fn push(&mut self, payload: &[u8], searches: u32) -> Option<()> {
         let [heads, mut destinations, walks, others] = split(payload)?;
         self.planes[HEADS].extend_from_slice(heads);
         self.planes[WALKS].extend_from_slice(walks);
@@ -62,7 +62,7 @@ impl Joined {
         destinations.is_empty().then_some(())
     }
 
-    pub(super) fn payload(&self) -> Vec<u8> {
+    pub(in crate::trace) fn payload(&self) -> Vec<u8> {
         join(self.planes.each_ref().map(|plane| &plane[..]))
     }
 }

@@ -14,7 +14,7 @@ pub(super) struct Walks {
 }
 
 /// Is there a tree among these regions whose walks can be coded by those before?
-pub(super) fn has_tree(regions: &[Region]) -> bool {
+pub(in crate::trace) fn has_tree(regions: &[Region]) -> bool {
     regions.iter().any(|region| nodes(region).is_some())
 }
 

@@ -1,8 +1,6 @@
 //! Blocks of a trace that become one of an archive.
 
-use super::planes::Joined;
-use super::segments::has_tree;
-use super::{LEVEL, MOST_PAYLOAD, MOST_SEARCHES, pack};
+use super::archive::{Joined, LEVEL, MOST_PAYLOAD, MOST_SEARCHES, has_tree, pack};
 use crate::container::{Block, BlockMeta, Section};
 use crate::digest::Tally;
 use crate::error::Result;
@@ -14,7 +12,7 @@ const FEW: u32 = 1 << 12;
 
 /// Blocks that follow one another, as many as go into one.
 #[derive(Default)]
-pub(in crate::trace) struct Kept {
+pub(super) struct Kept {
     first: Option<Block>,
     blocks: usize,
     searches: u32,
@@ -25,7 +23,7 @@ pub(in crate::trace) struct Kept {
 
 impl Kept {
     /// Do the searches of one more go into the same block?
-    pub(in crate::trace) fn has_room_for(&self, block: &Block, regions: &[Region]) -> bool {
+    pub(super) fn has_room_for(&self, block: &Block, regions: &[Region]) -> bool {
         let Some(first) = &self.first else { return true };
         let (one, other) = (first.meta, block.meta);
         (one.batch, one.warm_up, Section::Records) == (other.batch, other.warm_up, block.section)
@@ -35,7 +33,7 @@ impl Kept {
     }
 
     /// Takes one more, which has been read and adds so much to the digest.
-    pub(in crate::trace) fn push(&mut self, block: Block, tally: Tally, regions: &[Region]) {
+    pub(super) fn push(&mut self, block: Block, tally: Tally, regions: &[Region]) {
         let payload = payload_of(&block, regions);
         payload
             .and_then(|payload| self.joined.push(&payload, block.meta.records))
@@ -51,7 +49,7 @@ impl Kept {
     ///
     /// # Errors
     /// [`Error::Invalid`] if they are too large, [`Error::Io`].
-    pub(in crate::trace) fn finish(self, regions: &[Region]) -> Result<Option<(Block, Tally)>> {
+    pub(super) fn finish(self, regions: &[Region]) -> Result<Option<(Block, Tally)>> {
         let Some(first) = self.first else { return Ok(None) };
         let payload = self.joined.payload();
         let meta = BlockMeta { records: self.searches, ..first.meta };
