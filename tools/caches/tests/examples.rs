@@ -3,9 +3,9 @@
 use pm_formats::trace::{Access, AccessKind, BlockEncoder, Coding, TraceWriter, lay_out};
 use pm_formats::{BlockMeta, Header};
 
-#[path = "../examples/count_accesses.rs"]
+#[path = "../examples/fetches_by_region.rs"]
 #[allow(dead_code, reason = "its main is not run here")]
-mod count_accesses;
+mod fetches_by_region;
 #[path = "../examples/made_up_trace.rs"]
 #[allow(dead_code, reason = "its main is not run here")]
 mod made_up_trace;
@@ -48,12 +48,12 @@ fn the_accesses_of_a_trace_are_counted() {
     let stream = writer.finish(vec![]).unwrap();
 
     let mut said = vec![];
-    count_accesses::run(&stream[..], &mut said).unwrap();
+    fetches_by_region::run(&stream[..], &mut said).unwrap();
     let expected = "\
 nodes               4 reads
 photons             0 reads
 2 queries, 3 lines of 64 bytes touched, 20 bytes written
 ";
     assert_eq!(String::from_utf8(said).unwrap(), expected);
-    assert!(count_accesses::run(&stream[..stream.len() - 1], &mut vec![]).is_err(), "half a trace");
+    assert!(fetches_by_region::run(&stream[..stream.len() - 1], &mut vec![]).is_err(), "half a trace");
 }

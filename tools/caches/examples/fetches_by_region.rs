@@ -1,5 +1,5 @@
 //! Counts the accesses of a trace, region by region, and the lines it touches. `cargo run -p pm-caches --example
-//! count_accesses FILE.pmt`
+//! fetches_by_region FILE.pmt`
 
 use pm_caches::{CacheConfig, Simulation};
 use pm_formats::trace::TraceReader;
