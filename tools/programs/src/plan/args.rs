@@ -30,7 +30,7 @@ pub struct Args {
     /// The chance with which it shall hold, and that of all intervals
     #[arg(long, value_name = "CHANCE", default_value = "95%", value_parser = confidence)]
     pub(super) confidence: f64,
-    /// Processor time that the picture may take at most, in seconds
+    /// Most seconds of processor time that the picture may take
     #[arg(long, value_name = "SECONDS", default_value = "3600", value_parser = seconds)]
     pub(super) seconds: f64,
     /// Save bytes fetched from memory rather than seconds: so much room there is on the chip for a cache and an order's store
@@ -42,10 +42,14 @@ pub struct Args {
     /// Pictures a second that --bandwidth has to do for
     #[arg(long, value_name = "N", default_value = "1", requires = "bandwidth", value_parser = seconds)]
     pub(super) fps: f64,
-    /// Say too how far the picture will look off: the mean of FLIP, as pm-view's ldr_flip, measured on small pictures
+    /// Say too how far the picture will look off, by FLIP
+    ///
+    /// The mean of pm-view's ldr_flip, over small pictures that are held against a better one.
     #[arg(long)]
     pub(super) flip: bool,
-    /// Draw what errors cost here, by the best recipes and by the paper's map, and what was tried
+    /// Draw what errors cost here
+    ///
+    /// By the best recipes and by the paper's map of 450,000 photons, with what was tried.
     #[arg(long, value_name = "FILE.svg", value_parser = drawing)]
     pub(super) chart: Option<PathBuf>,
     /// How the plan is written: in words, or as a row of numbers
