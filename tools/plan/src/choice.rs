@@ -46,8 +46,7 @@ pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64
 /// For each error, the cheapest recipe that is predicted to have no more; none where nothing does.
 #[must_use]
 pub fn frontier(model: &Model, pixels: f64, errors: &[f64], caustics: u64) -> Vec<Choice> {
-    let found = errors.iter().filter_map(|&error| cheapest(model, skeletons(caustics), pixels, error));
-    found.collect()
+    frontier_among(&skeletons(caustics).collect::<Vec<_>>(), model, pixels, errors)
 }
 
 /// The same where maps are to have so many photons, and to be asked for so many neighbours.
@@ -59,13 +58,17 @@ pub fn frontier_of_map(
     caustics: u64,
     (photons, k): (u64, u32),
 ) -> Vec<Choice> {
-    let fixed = || skeletons(caustics).map(|recipe| Recipe { photons, k, ..recipe });
-    errors.iter().filter_map(|&error| cheapest(model, fixed(), pixels, error)).collect()
+    let of_one_map = |recipe: &Recipe| (recipe.photons, recipe.k) == (PHOTONS[0], KS[PLANNED.start]);
+    let with_map = |recipe| Recipe { photons, k, ..recipe };
+    frontier_among(&skeletons(caustics).filter(of_one_map).map(with_map).collect::<Vec<_>>(), model, pixels, errors)
 }
 
-fn cheapest(model: &Model, of: impl Iterator<Item = Recipe>, pixels: f64, error: f64) -> Option<Choice> {
-    let found = of.filter_map(|recipe| least_samples(model, recipe, pixels, error, 0.0));
-    found.min_by(|a, b| a.cost.total_cmp(&b.cost))
+fn frontier_among(recipes: &[Recipe], model: &Model, pixels: f64, errors: &[f64]) -> Vec<Choice> {
+    let cheapest = |&error: &f64| {
+        let found = recipes.iter().filter_map(|&recipe| least_samples(model, recipe, pixels, error, 0.0));
+        found.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    };
+    errors.iter().filter_map(cheapest).collect()
 }
 
 /// The recipe of least error that costs at most so much, by its estimate without its interval.

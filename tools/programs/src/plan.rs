@@ -103,7 +103,7 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
     let report = Report { args: &args, plan: &plan, time: &time, fetched: &fetched, flip, usual, own, pipe, size };
     if let Some(path) = &args.chart {
         let mut drawing = create_output(path)?;
-        drawing.write_all(chart::svg(&plan, args.error, pixels, caustics)?.as_bytes())?;
+        drawing.write_all(chart::svg(&plan, (args.error, args.confidence), pixels, caustics)?.as_bytes())?;
         drawing.commit()?;
     }
     let mut output = create_output(Path::new("-"))?;

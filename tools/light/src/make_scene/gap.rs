@@ -3,7 +3,7 @@
 //! What the gap lets through is a hundredth of the lamp's light, so next to no photon of a map is in the room that the
 //! camera sees, and nearly all its light has been reflected more than once: what photon maps and path tracers find hardest.
 
-use super::grid::{cuboid, lines_through, plane, surface};
+use super::grid::{cells_along, cuboid, lines_through, plane, surface, wall};
 use super::model::Model;
 use super::recipe::{Recipe, at_least};
 use glam::DVec3;
@@ -64,9 +64,8 @@ size = [128, 128]
 ";
 
 impl Recipe for Gap {
-    /// Walls have a cell for each quarter of a metre and step of fineness, more or less.
     fn build(&self, fineness: u32) -> Model {
-        let cells = |length: f64| ((length * f64::from(fineness) / 4.0).round() as usize).max(1);
+        let cells = cells_along(fineness);
         let mut model = Model::new(MATERIALS, CAMERA);
         model.about = vec![
             "Two rooms and a sliding door between them that leaves 5 cm open; the lamp is in the other one.".into(),
@@ -94,17 +93,14 @@ fn shell(model: &mut Model, cells: impl Fn(f64) -> usize) {
     let (from, to) = (-WALL - LENGTH, LENGTH);
     let (x, y, z) = (DVec3::X * (to - from), DVec3::Y * HEIGHT, DVec3::Z * (2.0 * HALF));
     let (low, high) = (DVec3::new(from, 0.0, -HALF), DVec3::new(to, HEIGHT, HALF));
-    let face = |model: &mut Model, corner: DVec3, u: DVec3, v: DVec3| {
-        plane(model, corner, u, v, cells(u.length()), cells(v.length()));
-    };
     model.group("floor", "floor");
-    face(model, low, z, x);
+    wall(model, low, z, x, &cells);
     model.group("walls", "wall");
-    face(model, high, -x, -z);
-    face(model, low, x, y);
-    face(model, high, -y, -x);
-    face(model, low, y, z);
-    face(model, high, -z, -y);
+    wall(model, high, -x, -z, &cells);
+    wall(model, low, x, y, &cells);
+    wall(model, high, -y, -x, &cells);
+    wall(model, low, y, z, &cells);
+    wall(model, high, -z, -y, &cells);
 }
 
 /// One face of the wall between the rooms, around the doorway; its front looks along x times `front`.

@@ -34,6 +34,16 @@ pub(super) fn plane(model: &mut Model, corner: DVec3, u: DVec3, v: DVec3, across
     surface(model, across, up, at, |_, _| true);
 }
 
+/// How many cells a wall of some length has: one for each quarter of a metre and step of fineness, more or less.
+pub(super) fn cells_along(fineness: u32) -> impl Fn(f64) -> usize + Copy {
+    move |length| ((length * f64::from(fineness) / 4.0).round() as usize).max(1)
+}
+
+/// The parallelogram from `corner` along `u` and `v`, cut into `cells` of both lengths; its front is on the side of u x v.
+pub(super) fn wall(model: &mut Model, corner: DVec3, u: DVec3, v: DVec3, cells: impl Fn(f64) -> usize) {
+    plane(model, corner, u, v, cells(u.length()), cells(v.length()));
+}
+
 /// Numbers that cut [from, to] into `cells` equal parts, ends exact.
 pub(super) fn lines(from: f64, to: f64, cells: usize) -> Vec<f64> {
     (0..=cells).map(|i| if i == cells { to } else { from + (to - from) * (i as f64 / cells as f64) }).collect()

@@ -4,7 +4,7 @@
 //! lie together, while the rest of the room has only what the patch and the sky send on: where the same number of photons is
 //! too many and too few.
 
-use super::grid::{cuboid, lines_through, plane, surface};
+use super::grid::{cells_along, cuboid, lines_through, plane, surface, wall};
 use super::model::Model;
 use super::recipe::{Recipe, at_least};
 use glam::DVec3;
@@ -65,9 +65,8 @@ size = [128, 128]
 ";
 
 impl Recipe for Sunlit {
-    /// Walls have a cell for each quarter of a metre and step of fineness, more or less.
     fn build(&self, fineness: u32) -> Model {
-        let cells = |length: f64| ((length * f64::from(fineness) / 4.0).round() as usize).max(1);
+        let cells = cells_along(fineness);
         let mut model = Model::new(MATERIALS, CAMERA);
         model.about = vec![
             "A room with one window; the sun, a square seen under four degrees, and the sky are lamps outside.".into(),
@@ -92,16 +91,13 @@ impl Recipe for Sunlit {
 fn shell(model: &mut Model, cells: impl Fn(f64) -> usize) {
     let (x, y, z) = (DVec3::X * (2.0 * HALF), DVec3::Y * HEIGHT, DVec3::Z * DEPTH);
     let (low, high) = (DVec3::new(-HALF, 0.0, 0.0), DVec3::new(HALF, HEIGHT, DEPTH));
-    let face = |model: &mut Model, corner: DVec3, u: DVec3, v: DVec3| {
-        plane(model, corner, u, v, cells(u.length()), cells(v.length()));
-    };
     model.group("floor", "floor");
-    face(model, low, z, x);
+    wall(model, low, z, x, &cells);
     model.group("walls", "wall");
-    face(model, high, -x, -z);
-    face(model, high, -y, -x);
-    face(model, low, y, z);
-    face(model, high, -z, -y);
+    wall(model, high, -x, -z, &cells);
+    wall(model, high, -y, -x, &cells);
+    wall(model, low, y, z, &cells);
+    wall(model, high, -z, -y, &cells);
 }
 
 /// The wall around the window, from inside and from outside.

@@ -1,6 +1,6 @@
 //! The frontier that a plan was chosen on, as a drawing: error against cost.
 
-use super::report::root;
+use super::report::{root, two_sided};
 use anyhow::Context as _;
 use pm_plan::{Choice, PAPERS_MAP, Plan, Rival, frontier, frontier_of_map};
 use pm_report::chart::{Look, Plot, Selection};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 const AROUND: [f64; 9] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.26, 1.6, 2.0, 2.5];
 
 /// What is drawn: which pictures could be had for what, by the model as the trials left it, and what was tried.
-pub(super) fn svg(plan: &Plan, wanted: f64, pixels: f64, caustics: u64) -> anyhow::Result<String> {
+pub(super) fn svg(plan: &Plan, (wanted, confidence): (f64, f64), pixels: f64, caustics: u64) -> anyhow::Result<String> {
     let bytes = plan.model.fetched(&plan.choice.recipe, pixels).is_some();
     let unit = if bytes { "bytes_fetched" } else { "seconds" };
     let mut table = Table::new(vec![
@@ -41,7 +41,7 @@ pub(super) fn svg(plan: &Plan, wanted: f64, pixels: f64, caustics: u64) -> anyho
     if let Some(Rival::Dearer(rival) | Rival::TooCoarse(rival)) = &plan.rival {
         point("next best", rival, predicted(rival), f64::NAN);
     }
-    let [low, high] = [plan.error.lower(0.975), plan.error.upper(0.975)].map(|square| root(square) * 100.0);
+    let [low, high] = two_sided(&plan.error, confidence).map(|square| root(square) * 100.0);
     point("the plan", &plan.choice, root(plan.error.value) * 100.0, (high - low) / 2.0);
     let mut rows = vec![];
     table.write(Format::Csv, &mut rows)?;

@@ -12,6 +12,8 @@ const PIXELS: f64 = 4096.0;
 const PICTURES: u64 = 3;
 /// Eye rays and photons of the good one, relative to theirs: its own noise adds a twentieth.
 const BETTER: u32 = 9;
+/// Seeds of these pictures are others than those by which time is measured.
+const FIRST_SEED: u64 = 1000;
 /// Photons at most.
 const MOST_PHOTONS: u64 = 20_000_000;
 
@@ -40,6 +42,3 @@ pub(super) fn measure(pilots: &Pilots<'_>, recipe: &Recipe) -> anyhow::Result<Es
     }
     Ok(Estimate::mean(&found))
 }
-
-/// Seeds of these pictures are others than those by which time is measured.
-const FIRST_SEED: u64 = 1000;

@@ -229,7 +229,7 @@ impl Report<'_> {
 }
 
 /// Both ends of the interval that holds the truth with this chance.
-fn two_sided(estimate: &Estimate, confidence: f64) -> [f64; 2] {
+pub(super) fn two_sided(estimate: &Estimate, confidence: f64) -> [f64; 2] {
     let one_sided = f64::midpoint(1.0, confidence);
     [estimate.lower(one_sided), estimate.upper(one_sided)]
 }
