@@ -4,7 +4,7 @@ TAKEN += later
 
 later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, order in software (-j1: some minutes)
 
-out/later/report.html: scripts/later.toml out/hints.csv out/curves.csv out/software.csv $(call made_with,REPORTING)
+out/later/report.html: scripts/later.toml out/hints.csv out/curves.csv out/latency.csv out/software.csv $(call made_with,REPORTING)
 	@mkdir -p $(@D)
 	$(BIN)/pm-chart -q --anyway --page $< -o $@
 	@echo "After the paper: $@"

@@ -5,6 +5,7 @@
 mod accuracy;
 mod approximate;
 mod archive;
+mod chains;
 mod charts;
 mod circles;
 mod cli;

@@ -28,6 +28,9 @@ pub enum Coding {
     /// Whole records of all regions of this coding, at most [`MAX_IN_TURNS`], are read in turns: of each its region, and how
     /// far it is from the one read last of that region.
     InTurns,
+    /// The same, and each read says which reads of its search it [waits](crate::trace::Waits) for. A trace has regions of
+    /// this coding or of that one.
+    Waiting,
 }
 
 /// One region of the traced memory. No two regions of a trace share a 4 KiB page.
@@ -56,6 +59,11 @@ impl Region {
     #[must_use]
     pub fn is_addresses(&self) -> bool {
         self.coding == Coding::Addresses
+    }
+
+    /// Whether whole records of it are read in turns with those of other regions.
+    pub(crate) fn is_in_turns(&self) -> bool {
+        matches!(self.coding, Coding::InTurns | Coding::Waiting)
     }
 
     /// Whether it has room for so many records, of at least a byte each.
@@ -153,7 +161,10 @@ fn check_groups(regions: &[Region]) -> std::result::Result<(), &'static str> {
             return Err("a region is smaller than its nodes");
         }
     }
-    let mut in_turns = regions.iter().filter(|region| region.coding == Coding::InTurns);
+    let mut in_turns = regions.iter().filter(|region| region.is_in_turns());
+    if in_turns.clone().any(|region| Some(&region.coding) != in_turns.clone().next().map(|first| &first.coding)) {
+        return Err("of the regions that are coded in turns some say what reads wait for and some do not");
+    }
     if in_turns.clone().count() > MAX_IN_TURNS {
         return Err("more than 64 regions are coded in turns");
     }

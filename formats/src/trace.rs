@@ -11,6 +11,7 @@ mod in_turns;
 mod kept;
 mod reader;
 mod varint;
+mod waits;
 mod writer;
 
 pub use crate::region::{Coding, MAX_ACCESS, MAX_IN_TURNS, REGION_ALIGNMENT, Region, lay_out};
@@ -18,6 +19,7 @@ pub use access::{Access, AccessKind, TraceSink};
 pub use decode::decode_searches;
 pub use encode::BlockEncoder;
 pub use reader::TraceReader;
+pub use waits::Waits;
 pub use writer::TraceWriter;
 
 #[cfg(test)]

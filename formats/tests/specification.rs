@@ -1,6 +1,6 @@
 //! Are the bytes those that `README.md` specifies? Read here by offsets, without the library's reader.
 
-use pm_formats::trace::{BlockEncoder, Coding, TraceWriter, lay_out};
+use pm_formats::trace::{BlockEncoder, Coding, TraceWriter, Waits, lay_out};
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{BlockMeta, Header, Number, Photon, Query, RecordWriter, StageReport, Step};
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
@@ -164,6 +164,29 @@ fn a_trace_by_its_planes() {
     search.extend([4u32, 2].iter().flat_map(|pixel| pixel.to_le_bytes()));
     search.extend(heads.iter().chain(&walks).chain(&others));
     assert_eq!(tally.digest.0, xxh3_128(&search));
+}
+
+#[test]
+fn what_reads_wait_for_by_its_planes() {
+    let regions = lay_out([16, 16].map(|size| (String::new(), 1600, size, Coding::Waiting)));
+    let mut encoder = BlockEncoder::new(&regions);
+    encoder.begin(&[4]);
+    encoder.waiting_records(0, &[9, 10], &[Waits::NOTHING, Waits::last_above(1)]);
+    encoder.waiting_records(1, &[3], &[Waits::all_above(2)]);
+    encoder.waiting_records(0, &[9], &[Waits::ALL_BEFORE]);
+    encoder.end();
+    let (written, tally) = encoder.finish(BlockMeta::default()).unwrap();
+    let mut stream_header = sample_header();
+    stream_header.regions = regions;
+    let mut writer = TraceWriter::new(vec![], &stream_header).unwrap();
+    writer.write(&written, tally).unwrap();
+    let stream = writer.finish(vec![]).unwrap();
+    let (_, _, _, _, payload, _) = block(header(&stream, 3).1);
+    // 2 level + a, then the read: zigzag differences +9, +1, +3, -1, each above a bit that says which region.
+    let others = [0, 36, 2, 4, 5, 13, 1, 2];
+    let lens = [3u32, 2, 0].iter().flat_map(|len| len.to_le_bytes());
+    let expected: Vec<u8> = lens.chain([1, 1, 4]).chain([1, 8]).chain(others).collect();
+    assert_eq!(payload, expected);
 }
 
 #[test]

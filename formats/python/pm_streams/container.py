@@ -23,7 +23,7 @@ class Region:
     """A part of the traced memory.
 
     `coding` is "records", "heap walk" with its number of nodes, "addresses" (all of 64 bits), "leaves apart" with the number of
-    nodes of the whole tree, or "in turns".
+    nodes of the whole tree, or "in turns", of which `waits` tells whether each read says what it waits for.
     """
 
     name: str
@@ -34,6 +34,7 @@ class Region:
     nodes: int = 0
     leaves: int = 0
     reread: bool = False
+    waits: bool = False
 
 
 @dataclass
@@ -137,6 +138,8 @@ def _region(fields):
         region.coding, region.leaves, region.nodes = "leaves apart", leaves, max(2 * leaves - 1, 0)
     elif number == 4:
         region.coding = "in turns"
+    elif number == 5:
+        region.coding, region.waits = "in turns", True
     elif number != 0:
         raise DamagedStream(f"region {region.name!r} has coding {number}, which is not known")
     return region
@@ -147,6 +150,8 @@ def _check_together(regions):
     in_turns = [region for region in regions if region.coding == "in turns"]
     if len(in_turns) > 64 or not all(region.record_size for region in in_turns):
         raise DamagedStream("regions cannot be coded in turns")
+    if len({region.waits for region in in_turns}) > 1:
+        raise DamagedStream("of the regions that are coded in turns some say what reads wait for and some do not")
     for tree, below in zip(regions, [*regions[1:], None]):
         if tree.coding != "leaves apart":
             continue

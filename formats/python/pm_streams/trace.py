@@ -123,11 +123,18 @@ def _others(plane, count, region, last):
     return kinds, offsets, lengths, last
 
 
-def _in_turns(plane, count, regions, last):
-    """Reads of whole records in turns of these regions, (number, region) each: numbers of their regions, offsets, lengths."""
+def _in_turns(plane, count, regions, last, levels):
+    """Reads of whole records in turns of these regions, (number, region) each: numbers of their regions, offsets, lengths.
+
+    What each waits for, where it says so, is checked and no more; `levels` has the number of levels read so far."""
     bits = (len(regions) - 1).bit_length()
     numbers, offsets, lengths = [], [], []
     for _ in range(count):
+        if regions and regions[0][1].waits:
+            waits = plane.take()
+            if waits >= 1 << 16 or waits >> 1 > levels[0]:
+                raise DamagedStream("a read waits for a level that has none")
+            levels[0] = max(levels[0], (waits >> 1) + 1)
         token = plane.take()
         rank = token & (1 << bits) - 1
         if rank >= len(regions):
@@ -165,7 +172,7 @@ def decode(block, regions):
             pixel += _unzigzag(destinations.take())
             served.append(pixel)
         pixels.append(served)
-        last, at, count, last_in_turns = 0, 8 * walked, 0, [0] * len(in_turns)
+        last, at, count, last_in_turns, levels = 0, 8 * walked, 0, [0] * len(in_turns), [0]
         for _ in range(heads.take()):
             head = heads.take()
             number, region = head >> 1, regions[head >> 1] if head >> 1 < len(regions) else None
@@ -180,7 +187,7 @@ def decode(block, regions):
                 if len(offsets) and int(offsets.max()) + max(lengths, 1) > 1 << 64:
                     raise DamagedStream("an access lies outside its region")
             elif head & 1 and region.coding == "in turns":
-                number, offsets, lengths = _in_turns(others, heads.take(), in_turns, last_in_turns)
+                number, offsets, lengths = _in_turns(others, heads.take(), in_turns, last_in_turns, levels)
                 kinds = READ
             elif head & 1:
                 reads = []

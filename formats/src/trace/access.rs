@@ -1,5 +1,7 @@
 //! What a trace says: accesses to memory, and who listens.
 
+use super::Waits;
+
 /// What an access does to memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
@@ -46,6 +48,10 @@ pub trait TraceSink {
     /// A search begins that serves one query for each of `destinations` (pixel numbers, row by row).
     fn search(&mut self, destinations: &[u32]) {
         let _ = destinations;
+    }
+    /// Of a trace that says so ([`Coding::Waiting`](super::Coding::Waiting)): what the access that comes next waits for.
+    fn waits(&mut self, waits: Waits) {
+        let _ = waits;
     }
     /// The search reads or writes memory.
     fn access(&mut self, access: Access);

@@ -82,7 +82,7 @@ fn decode_accesses(
         }
         if head & 1 == 1 {
             match region.coding {
-                Coding::InTurns => {
+                Coding::InTurns | Coding::Waiting => {
                     let count = take(&mut planes.heads)?;
                     in_turns.decode(count, &mut planes.others, sink)?;
                 }

@@ -1,5 +1,6 @@
 //! Searches into blocks.
 
+use super::Waits;
 use super::access::{Access, AccessKind};
 use super::bits::BitWriter;
 use super::groups::{Group, nodes_of};
@@ -47,6 +48,8 @@ struct Current {
     run: Option<(AccessKind, u32, u64)>,
     /// Reads of records of regions that are coded together, all of one group, that have no segment yet.
     together: Vec<(u16, u32)>,
+    /// What those of regions that are read in turns wait for.
+    waits: Vec<Waits>,
     pixels: Vec<u32>,
 }
 
@@ -85,6 +88,7 @@ impl<'a> BlockEncoder<'a> {
         current.last = 0;
         current.run = None;
         current.together.clear();
+        current.waits.clear();
         self.in_turns.restart();
         current.pixels.clear();
         current.pixels.extend_from_slice(destinations);
@@ -103,7 +107,11 @@ impl<'a> BlockEncoder<'a> {
             self.end_together();
         }
         if group != Group::Alone {
-            return self.current.together.extend(indices.iter().map(|&index| (region, index)));
+            self.current.together.extend(indices.iter().map(|&index| (region, index)));
+            if matches!(group, Group::Turns { .. }) {
+                self.current.waits.resize(self.current.together.len(), Waits::NOTHING);
+            }
+            return;
         }
         let mut rest = indices;
         if let Coding::HeapWalk { nodes, reread } = self.regions[usize::from(region)].coding {
@@ -115,6 +123,19 @@ impl<'a> BlockEncoder<'a> {
         }
         if !rest.is_empty() {
             self.spelled_out(region, rest.iter().copied());
+        }
+    }
+
+    /// The same, and says what each of the reads waits for, if the region's coding has a place for that.
+    ///
+    /// # Panics
+    /// As [`records`](Self::records), and, here or later, if one waits for a level that nothing was read at.
+    pub fn waiting_records(&mut self, region: u16, indices: &[u32], waits: &[Waits]) {
+        assert_eq!(indices.len(), waits.len(), "each of the reads waits for something, or for nothing");
+        self.records(region, indices);
+        if let Group::Turns { .. } = self.groups[usize::from(region)] {
+            let from = self.current.waits.len() - waits.len();
+            self.current.waits[from..].copy_from_slice(waits);
         }
     }
 
@@ -136,9 +157,9 @@ impl<'a> BlockEncoder<'a> {
             Some((region, Group::Turns { .. })) => {
                 self.segment(region, true, 0);
                 push(&mut self.current.heads, reads.len() as u64);
-                for &(region, index) in &reads {
+                for (&(region, index), &waits) in reads.iter().zip(&self.current.waits) {
                     let Group::Turns { rank } = self.groups[usize::from(region)] else { unreachable!("one group") };
-                    self.in_turns.encode(rank, index, &mut self.others);
+                    self.in_turns.encode(rank, index, waits, &mut self.others);
                 }
             }
             Some((_, Group::Tree { inner, leaves })) => {
@@ -161,6 +182,7 @@ impl<'a> BlockEncoder<'a> {
             }
         }
         reads.clear();
+        self.current.waits.clear();
         self.current.together = reads;
     }
 

@@ -36,7 +36,7 @@ impl Group {
                         *leaves_of_it = Self::Tree { inner, leaves };
                     }
                 }
-                Coding::InTurns => {
+                Coding::InTurns | Coding::Waiting => {
                     groups[at] = Self::Turns { rank };
                     rank += 1;
                 }

@@ -4,6 +4,7 @@
 //! which of the regions it is of. A search that goes back and forth between nodes and leaves, or between buckets and blocks,
 //! so costs nothing for the change itself, and each region has small differences of its own.
 
+use super::Waits;
 use super::access::{Access, TraceSink};
 use super::varint::{push, take_fast, unzigzag, zigzag};
 use crate::region::{Coding, Region};
@@ -13,6 +14,10 @@ pub(super) struct InTurns {
     /// Bits that tell which region.
     bits: u32,
     regions: Vec<InTurn>,
+    /// Does each read say what it waits for?
+    waiting: bool,
+    /// Levels that the search has reads at.
+    levels: u16,
 }
 
 /// One of them.
@@ -26,25 +31,36 @@ struct InTurn {
 
 impl InTurns {
     /// Of the regions of a trace.
-    pub(super) fn of(regions: &[Region]) -> Self {
-        let in_turns = regions.iter().zip(0..).filter(|(region, _)| region.coding == Coding::InTurns);
+    pub(super) fn of(of: &[Region]) -> Self {
+        let in_turns = of.iter().zip(0..).filter(|(region, _)| region.is_in_turns());
         let regions: Vec<InTurn> = in_turns
             .map(|(region, number)| {
                 let records = region.size.checked_div(region.record_size.into()).unwrap_or(0);
                 InTurn { number, record_size: region.record_size, records, last: 0 }
             })
             .collect();
-        Self { bits: regions.len().next_power_of_two().trailing_zeros(), regions }
+        let waiting = of.iter().any(|region| region.coding == Coding::Waiting);
+        Self { bits: regions.len().next_power_of_two().trailing_zeros(), regions, waiting, levels: 0 }
     }
 
     /// A search begins: nothing was read before.
     #[inline]
     pub(super) fn restart(&mut self) {
+        self.levels = 0;
         self.regions.iter_mut().for_each(|region| region.last = 0);
     }
 
-    /// Codes the read of a record of the region that has this number among those in turns.
-    pub(super) fn encode(&mut self, rank: u16, record: u32, bytes: &mut Vec<u8>) {
+    /// Codes the read of a record of the region that has this number among those in turns. What it waits for is left out where
+    /// the coding has no place for it.
+    ///
+    /// # Panics
+    /// If it waits for a level that nothing was read at.
+    pub(super) fn encode(&mut self, rank: u16, record: u32, waits: Waits, bytes: &mut Vec<u8>) {
+        if self.waiting {
+            assert!(waits.level() <= self.levels, "a read waits for a level that has none");
+            self.levels = self.levels.max(waits.level() + 1);
+            push(bytes, waits.code());
+        }
         let region = &mut self.regions[usize::from(rank)];
         let record = i64::from(record);
         push(bytes, zigzag(record - region.last) << self.bits | u64::from(rank));
@@ -56,6 +72,11 @@ impl InTurns {
     pub(super) fn decode(&mut self, count: u64, bytes: &mut &[u8], sink: &mut impl TraceSink) -> Option<()> {
         let of_rank = (1u64 << self.bits) - 1;
         for _ in 0..count {
+            if self.waiting {
+                let waits = Waits::of_code(take_fast(bytes)?, self.levels)?;
+                self.levels = self.levels.max(waits.level() + 1);
+                sink.waits(waits);
+            }
             let token = take_fast(bytes)?;
             let region = self.regions.get_mut((token & of_rank) as usize)?;
             // Beyond 2^63 it is negative, and that is beyond any region.

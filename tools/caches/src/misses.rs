@@ -1,12 +1,14 @@
-//! Misses in the order they happen, and what follows them: changes of DRAM pages, rows of DRAM banks, a trace of what is
+//! Misses in the order they happen, and what follows them: chains in which one waits for another, changes of DRAM pages, rows of DRAM banks, a trace of what is
 //! fetched.
 
+mod chains;
 mod dram;
 mod page_switches;
 mod stream;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use chains::{Chains, Waiting};
 pub(crate) use dram::Banks;
 pub use dram::{BankMap, Dram, DramCounts, DramError, RowPolicy};
 pub(crate) use page_switches::PageSwitches;

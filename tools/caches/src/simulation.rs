@@ -17,12 +17,12 @@ pub use error::SimulationError;
 
 use std::collections::BTreeMap;
 
-use pm_formats::trace::{Access, Region, TraceSink};
+use pm_formats::trace::{Access, Region, TraceSink, Waits};
 
 use crate::config::check_line;
 use crate::findings::{ResultTraffic, SearchStart};
 use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places};
-use crate::misses::{Banks, PageSwitches};
+use crate::misses::{Banks, PageSwitches, Waiting};
 use crate::{CacheConfig, CacheCounts, Measures, RecordCounts};
 use error::check_regions;
 use line_group::LineGroup;
@@ -64,6 +64,8 @@ pub struct Simulation {
     waiting: AccessBuffer,
     /// Where searches that count begin among them, if somebody wants to know.
     starts: Vec<SearchStart>,
+    /// What they wait for themselves, if somebody wants to know.
+    waits: Option<Waiting>,
     batch: u64,
     warm_up: bool,
     results: Option<ResultTraffic>,
@@ -149,6 +151,7 @@ impl Simulation {
             measures: measures.clone(),
             waiting: AccessBuffer::new(chunk.max(1)),
             starts: vec![],
+            waits: measures.miss_chains.then(Waiting::default),
             batch: 0,
             warm_up: false,
             queries: 0,
@@ -174,7 +177,7 @@ impl Simulation {
         }
         if self.places.is_empty() {
             for group in &mut self.groups {
-                group.run(&accesses, !self.warm_up, &self.starts);
+                group.run(&accesses, !self.warm_up, &self.starts, self.waits.as_ref());
             }
         }
         for (&shift, places) in &mut self.places {
@@ -182,7 +185,7 @@ impl Simulation {
             for group in self.groups.iter_mut().filter(|group| group.page_shift == shift) {
                 group.space.extend(places.pages());
                 match group.space.check() {
-                    Ok(()) => group.run(&places.placed(&accesses), !self.warm_up, &[]),
+                    Ok(()) => group.run(&places.placed(&accesses), !self.warm_up, &[], None),
                     Err(error) => self.fault = Some(error),
                 }
             }
@@ -201,6 +204,7 @@ impl Simulation {
         }
         self.waiting.clear();
         self.starts.clear();
+        self.waits.iter_mut().for_each(Waiting::clear);
     }
 
     /// Whether all went well so far: only a trace of all addresses can turn out to have too many lines.
@@ -253,8 +257,20 @@ impl TraceSink for Simulation {
                 self.starts.push(SearchStart { at: self.waiting.len(), batch: self.batch });
             }
         }
+        if let Some(waits) = &mut self.waits {
+            waits.search(self.waiting.len());
+        }
         if let Some(results) = &mut self.results {
             results.search(self.batch, destinations, !self.warm_up);
+        }
+    }
+
+    fn waits(&mut self, waits: Waits) {
+        if self.waits.is_some() && self.waiting.is_full() {
+            self.flush();
+        }
+        if let Some(waiting) = &mut self.waits {
+            waiting.say(self.waiting.len(), waits);
         }
     }
 

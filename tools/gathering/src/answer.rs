@@ -3,7 +3,7 @@
 use super::{Answered, Fault, Lookups, Outcome, PrecomputedIrradiance, RadianceEstimate, Scratch, SearchCounts};
 use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
-use pm_formats::trace::{Access, BlockEncoder, Coding, Region};
+use pm_formats::trace::{Access, BlockEncoder, Coding, Region, Waits};
 use pm_formats::{Block, Header, Query, decode_checked};
 use pm_maps::{AccessObserver, AnyMap, Blind, Carry, Nearest, Search, SearchReads, offset_of};
 
@@ -19,7 +19,8 @@ pub struct Answerer<'a> {
     pub map: &'a dyn AnyMap,
     /// Header of the query stream.
     pub header: &'a Header,
-    /// Regions of the trace, if one is wanted.
+    /// Regions of the trace, if one is wanted. If they are coded so, reads say what they wait for: of a map that tells of it,
+    /// whose records are packed, without second touches.
     pub regions: Option<&'a [Region]>,
     /// Do second touches of a record count as reads?
     pub reread: bool,
@@ -42,7 +43,11 @@ impl Answerer<'_> {
         // Where the coding of walks implies the second touches they need not be remembered.
         let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { reread: true, .. });
         let implied = self.regions.is_some_and(|regions| regions.iter().any(walk));
-        let mut reads = SearchReads::with_rereads(self.reread && !implied);
+        let waiting = self.regions.is_some_and(|regions| regions.iter().any(|it| it.coding == Coding::Waiting));
+        let mut reads = match waiting {
+            true => SearchReads::with_waits(),
+            false => SearchReads::with_rereads(self.reread && !implied),
+        };
         let mut scratch = Scratch::default();
         let mut encoder = self.regions.map(BlockEncoder::new);
         let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
@@ -77,7 +82,11 @@ impl Answerer<'_> {
             counts.accesses += reads.len() as u64 + if implied { reads.rereads() } else { 0 };
             if let Some(encoder) = &mut encoder {
                 encoder.begin(&[query.pixel]);
-                reads.runs().for_each(|(region, records)| self.encode(encoder, region, records));
+                let mut waits = reads.waits();
+                for (region, records) in reads.runs() {
+                    let waits = waits.as_mut().and_then(|waits| waits.split_off(..records.len()));
+                    self.encode(encoder, region, records, waits);
+                }
                 encoder.end();
             }
             if let Some((estimate, film)) = self.estimate {
@@ -109,7 +118,10 @@ impl Answerer<'_> {
     }
 
     /// Reads of whole records, which a region holds packed or padded.
-    fn encode(&self, encoder: &mut BlockEncoder<'_>, region: u16, records: &[u32]) {
+    fn encode(&self, encoder: &mut BlockEncoder<'_>, region: u16, records: &[u32], waits: Option<&[Waits]>) {
+        if let Some(waits) = waits {
+            return encoder.waiting_records(region, records, waits);
+        }
         let padding = self.map.padding();
         if padding.is_none() {
             return encoder.records(region, records);

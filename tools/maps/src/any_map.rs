@@ -23,6 +23,8 @@ pub trait AnyMap: Send + Sync {
     fn order(&self) -> Option<&Arc<[u32]>>;
     /// See [`PhotonMap::narrows`].
     fn narrows(&self) -> bool;
+    /// See [`PhotonMap::tells_waits`].
+    fn tells_waits(&self) -> bool;
     /// See [`PhotonMap::measures`].
     fn measures(&self) -> Vec<(&'static str, Number)>;
     /// See [`PhotonMap::blocks`].
@@ -62,6 +64,10 @@ impl<M: PhotonMap> AnyMap for M {
 
     fn narrows(&self) -> bool {
         PhotonMap::narrows(self)
+    }
+
+    fn tells_waits(&self) -> bool {
+        PhotonMap::tells_waits(self)
     }
 
     fn measures(&self) -> Vec<(&'static str, Number)> {

@@ -10,7 +10,7 @@ mod table;
 use super::photon_blocks::PhotonBlocks;
 use super::{AccessObserver, Nearest, PhotonMap};
 use pm_formats::Number;
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 use table::{Reference, Table};
 
 /// Number of the region that holds the buckets.
@@ -118,6 +118,10 @@ impl PhotonMap for BlockHash {
         false
     }
 
+    fn tells_waits(&self) -> bool {
+        true
+    }
+
     fn measures(&self) -> Vec<(&'static str, Number)> {
         let count = |number: usize| Number::Count(number as u64);
         let (tables, thresholds) = self.sizes();
@@ -143,7 +147,7 @@ impl PhotonMap for BlockHash {
         let mut wanted: Vec<Reference> = vec![];
         for table in &self.tables {
             let (bucket, is_there) = table.bucket(point);
-            eyes.read(BUCKETS, table.first + bucket as u32);
+            eyes.read_after(BUCKETS, table.first + bucket as u32, Waits::NOTHING);
             if is_there {
                 wanted.extend_from_slice(&table.buckets[bucket]);
             }
@@ -162,7 +166,8 @@ impl PhotonMap for BlockHash {
             if seen >= allowed {
                 break;
             }
-            eyes.read(Self::BLOCKS, reference.block);
+            // Which blocks come first all buckets say together.
+            eyes.read_after(Self::BLOCKS, reference.block, Waits::all_above(1));
             let block = reference.block as usize;
             seen += self.blocks.count(block);
             eyes.examined(self.blocks.count(block));

@@ -4,7 +4,7 @@ use super::error::check;
 use super::geometry::distance_squared;
 use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 
 /// Photons in a row; a search reads them all.
 pub struct BruteForce {
@@ -32,9 +32,13 @@ impl PhotonMap for BruteForce {
         self.positions.len()
     }
 
+    fn tells_waits(&self) -> bool {
+        true
+    }
+
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         for (id, &position) in (0..).zip(&self.positions) {
-            eyes.read(0, id);
+            eyes.read_after(0, id, Waits::NOTHING);
             eyes.examined(1);
             found.show(distance_squared(point, position), id);
         }

@@ -13,7 +13,7 @@ use super::point::Point;
 use super::split_tree::{self, Node, SplitTree};
 use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 use split::Split;
 
 /// Deepest tree of at most 2^30 leaves.
@@ -77,19 +77,26 @@ impl BucketKdTree {
     }
 }
 
+/// What a node waits for: the one above.
+#[inline(always)]
+fn waits(node: u32) -> Waits {
+    Waits::last_above(node.checked_ilog2().unwrap_or(0) as u16)
+}
+
 impl SplitTree for BucketKdTree {
     #[inline(always)]
     fn node(&self, at: u32, eyes: &mut impl AccessObserver) -> Node {
         let Some(split) = self.splits.get(at as usize - 1) else {
-            return Node::Leaf(at - 1 - self.splits.len() as u32);
+            return Node::Leaf(at);
         };
-        eyes.read(SPLITS, record_of(&self.records, at as usize));
+        eyes.read_after(SPLITS, record_of(&self.records, at as usize), waits(at));
         Node::Split { axis: split.axis(), low: split.low(), high: split.high, left: 2 * at, right: 2 * at + 1 }
     }
 
     #[inline(always)]
-    fn leaf(&self, leaf: u32, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
-        eyes.read(LEAVES, leaf);
+    fn leaf(&self, at: u32, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+        let leaf = at - 1 - self.splits.len() as u32;
+        eyes.read_after(LEAVES, leaf, waits(at));
         eyes.examined(self.leaves.count(leaf as usize));
         self.leaves.show(leaf as usize, point, found);
     }
@@ -112,6 +119,10 @@ impl PhotonMap for BucketKdTree {
 
     fn len(&self) -> usize {
         self.photons
+    }
+
+    fn tells_waits(&self) -> bool {
+        true
     }
 
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {

@@ -6,7 +6,7 @@ mod build;
 use super::geometry::distance_squared;
 use super::point::Point;
 use super::{AccessObserver, Nearest, PhotonMap};
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 use pm_formats::{Number, Photon};
 
 /// Bytes of a fixed cell that say how many photons it holds.
@@ -87,11 +87,14 @@ impl Grid {
             Some((bytes, line)) => {
                 let used = HEADER + (end - start) * size_of::<Photon>() as u32;
                 let first = cell as u32 * (bytes / line);
-                (first..first + used.div_ceil(line)).for_each(|record| eyes.read(0, record));
+                // Cells lie where the query says; how far one is filled stands in its first record.
+                eyes.read_after(0, first, Waits::NOTHING);
+                let rest = first + 1..first + used.div_ceil(line);
+                rest.for_each(|record| eyes.read_after(0, record, Waits::last_above(1)));
             }
             None => {
-                eyes.read(0, cell as u32);
-                (start..end).for_each(|record| eyes.read(1, record));
+                eyes.read_after(0, cell as u32, Waits::NOTHING);
+                (start..end).for_each(|record| eyes.read_after(1, record, Waits::last_above(1)));
             }
         }
         eyes.examined((end - start) as usize);
@@ -126,6 +129,10 @@ impl PhotonMap for Grid {
 
     fn is_exact(&self) -> bool {
         self.lost == 0
+    }
+
+    fn tells_waits(&self) -> bool {
+        true
     }
 
     fn measures(&self) -> Vec<(&'static str, Number)> {

@@ -121,6 +121,10 @@ impl PhotonMap for KdTree {
         self.line
     }
 
+    fn tells_waits(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         search::nearest(self, point, found, eyes);

@@ -14,7 +14,7 @@ use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use build::Builder;
 pub use page_form::PageForm;
 use pm_formats::Photon;
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 
 /// Number of the region that holds the region pages.
 const PAGES: u16 = 0;
@@ -39,6 +39,8 @@ pub struct KdbTree {
     blocks: PhotonBlocks,
     photons: usize,
     line: u32,
+    /// Pages on the way to a block, the same for all.
+    height: u8,
 }
 
 /// A region page: which children it has.
@@ -46,6 +48,8 @@ pub struct KdbTree {
 struct Page {
     first: u32,
     count: u32,
+    /// How many pages lie above it.
+    depth: u8,
 }
 
 #[derive(Clone, Copy)]
@@ -81,17 +85,19 @@ impl KdbTree {
             form: options.pages,
             block: filled(capacity, 1),
             fan_out: filled(fan_out, 2),
+            height: 1,
             pages: vec![],
             children: vec![],
             blocks: vec![],
         };
         let mut points = Point::all(photons);
-        let mut level = 1;
+        let mut level = 1u8;
         while builder.capacity(level) < points.len() {
             level += 1;
         }
         if !points.is_empty() {
             let bounds = extent(points.iter().map(|point| point.position));
+            builder.height = level;
             builder.pages.push(Page::default());
             builder.page(0, &mut points, bounds, level);
         }
@@ -103,6 +109,7 @@ impl KdbTree {
             blocks,
             photons: photons.len(),
             line: options.line,
+            height: level,
         })
     }
 }
@@ -128,6 +135,10 @@ impl PhotonMap for KdbTree {
         self.photons
     }
 
+    fn tells_waits(&self) -> bool {
+        true
+    }
+
     /// Depth first, the children of each page by their distance. A page is read once.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         if self.photons == 0 {
@@ -141,13 +152,13 @@ impl PhotonMap for KdbTree {
                 continue;
             }
             if let Some(block) = target.block() {
-                eyes.read(BLOCKS, block);
+                eyes.read_after(BLOCKS, block, Waits::last_above(self.height.into()));
                 eyes.examined(self.blocks.count(block as usize));
                 self.blocks.show(block as usize, point, found);
                 continue;
             }
-            eyes.read(PAGES, target.0);
             let page = self.pages[target.0 as usize];
+            eyes.read_after(PAGES, target.0, Waits::last_above(page.depth.into()));
             let from = later.len();
             for child in &self.children[page.first as usize..(page.first + page.count) as usize] {
                 let distance = distance_squared(point, &child.bounds);

@@ -1,11 +1,23 @@
 //! Eyes in the one search: which records are read.
 
 use super::{AnyMap, Nearest};
+use pm_formats::trace::Waits;
 
 /// Is told of every record a search reads, as it is reached and before its children are.
 pub trait AccessObserver {
     /// Record number `record` of region number `region` is read as a whole.
     fn read(&mut self, region: u16, record: u32);
+
+    /// The same, of a map that [tells what its reads wait for](crate::PhotonMap::tells_waits).
+    #[inline(always)]
+    fn read_after(&mut self, region: u16, record: u32, waits: Waits) {
+        let _ = waits;
+        self.read(region, record);
+    }
+
+    /// The search begins anew, since it did not find enough.
+    #[inline(always)]
+    fn again(&mut self) {}
 
     /// A record read before is looked at again, after all that lies below it.
     #[inline(always)]
@@ -32,6 +44,14 @@ pub trait AccessObserver {
 impl AccessObserver for &mut (dyn AccessObserver + '_) {
     fn read(&mut self, region: u16, record: u32) {
         (**self).read(region, record);
+    }
+
+    fn read_after(&mut self, region: u16, record: u32, waits: Waits) {
+        (**self).read_after(region, record, waits);
+    }
+
+    fn again(&mut self) {
+        (**self).again();
     }
 
     fn reread(&mut self, region: u16, record: u32) {

@@ -43,6 +43,12 @@ pub trait PhotonMap: Send + Sync {
         true
     }
 
+    /// Do searches tell what each read waits for ([`AccessObserver::read_after`])? Of one that does not, nobody can say which
+    /// of its misses wait for which.
+    fn tells_waits(&self) -> bool {
+        false
+    }
+
     /// What building it has brought to light, by name: the same for the same photons and values.
     fn measures(&self) -> Vec<(&'static str, Number)> {
         vec![]

@@ -63,6 +63,7 @@ impl Search {
                 return attempts;
             }
             attempts += 1;
+            eyes.again();
             // Past the square root of the largest number only infinity is left to try.
             let larger = if radius > 1e18 { f32::INFINITY } else { radius * 2.0 };
             radius = if radius < sure { larger.min(sure) } else { larger }.min(self.max_dist);

@@ -4,7 +4,7 @@ use super::{AccessObserver, Nearest};
 
 /// What a node of such a tree is.
 pub(super) enum Node {
-    /// Photons.
+    /// Photons, under a number that the tree knows them by.
     Leaf(u32),
     /// Two children: coordinates along `axis` are at most `low` in the left and at least `high` in the right one.
     Split { axis: usize, low: f32, high: f32, left: u32, right: u32 },

@@ -28,6 +28,11 @@ fn reads_lie_within_their_regions_and_are_told_apart() {
 }
 
 #[test]
+fn what_reads_wait_for_is_there_and_stays_the_same() {
+    trial::waits(&structures()).unwrap();
+}
+
+#[test]
 fn nobody_changes_a_search_by_watching_it() {
     trial::observers(&structures()).unwrap();
 }

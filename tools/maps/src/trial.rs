@@ -10,11 +10,13 @@ mod cases;
 mod form;
 mod neighbours;
 mod reads;
+mod waits;
 
 pub use cases::{cases, photons, query_points, random_points};
 pub use form::{Form, forms};
 pub use neighbours::{hints, neighbours};
 pub use reads::{observers, reads};
+pub use waits::waits;
 
 use crate::{BuildError, Structure};
 use pm_registry::Registry;
@@ -37,7 +39,7 @@ pub type Verdict = Result<(), Fault>;
 /// # Errors
 /// The first fault that is found.
 pub fn all(structures: &Registry<dyn Structure>) -> Verdict {
-    [refusals, observers, reads, neighbours, hints].into_iter().try_for_each(|trial| trial(structures))
+    [refusals, observers, reads, waits, neighbours, hints].into_iter().try_for_each(|trial| trial(structures))
 }
 
 /// Photons whose distances cannot be compared are refused.

@@ -14,7 +14,7 @@ use super::point::Point;
 use super::split_tree::{self, Node, SplitTree};
 use super::{AccessObserver, Blind, BucketKdTree, BuildError, Layout, Nearest, PhotonMap, Search};
 use heuristic::best_split;
-use pm_formats::trace::{Coding, Region, lay_out};
+use pm_formats::trace::{Coding, Region, Waits, lay_out};
 use pm_formats::{Number, Photon};
 
 /// Number of the region that holds the nodes.
@@ -33,6 +33,8 @@ const RADIUS_SAMPLES: usize = 200;
 /// The tree, depth first: a node's left child comes after it.
 pub struct VvhTree {
     nodes: Vec<Stored>,
+    /// How many nodes lie above each.
+    levels: Vec<u8>,
     points: Vec<Point>,
     radius: f64,
 }
@@ -54,7 +56,7 @@ impl VvhTree {
         let capacity = line as usize / size_of::<Photon>();
         let radius = typical_radius(photons, k)?;
         let mut points = Point::all(photons);
-        let mut tree = Self { nodes: vec![], points: vec![], radius };
+        let mut tree = Self { nodes: vec![], levels: vec![], points: vec![], radius };
         if !points.is_empty() {
             let cell = extent(points.iter().map(|point| point.position));
             // Beyond this depth splits are medians, or one set of photons could be peeled one by one, in quadratic time.
@@ -62,6 +64,7 @@ impl VvhTree {
             tree.divide(&mut points, cell, capacity, depth, 0);
         }
         tree.points = points;
+        tree.levels = tree.find_levels();
         Ok(tree)
     }
 
@@ -69,6 +72,25 @@ impl VvhTree {
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// How many nodes lie above each.
+    fn find_levels(&self) -> Vec<u8> {
+        let mut levels = vec![0; self.nodes.len()];
+        // A node's children come after it.
+        for (at, node) in self.nodes.iter().enumerate() {
+            if let Stored::Split { right, .. } = *node {
+                levels[at + 1] = levels[at] + 1;
+                levels[right as usize] = levels[at] + 1;
+            }
+        }
+        levels
+    }
+
+    /// Nodes above one. Where nobody asks, nothing is looked up: there is nothing in it that could fail.
+    #[inline(always)]
+    fn level(&self, at: u32) -> u16 {
+        self.levels.get(at as usize).map_or(0, |&level| level.into())
     }
 
     fn divide(&mut self, points: &mut [Point], cell: Box3, capacity: usize, depth: u32, first: usize) {
@@ -118,7 +140,7 @@ fn median(points: &mut [Point]) -> (usize, usize, f32) {
 impl SplitTree for VvhTree {
     #[inline(always)]
     fn node(&self, at: u32, eyes: &mut impl AccessObserver) -> Node {
-        eyes.read(NODES, at);
+        eyes.read_after(NODES, at, Waits::last_above(self.level(at)));
         match self.nodes[at as usize] {
             Stored::Split { axis, plane, right } => {
                 Node::Split { axis: usize::from(axis), low: plane, high: plane, left: at + 1, right }
@@ -132,7 +154,8 @@ impl SplitTree for VvhTree {
         let Stored::Leaf { first, count } = self.nodes[leaf as usize] else { return };
         eyes.examined(count as usize);
         for record in first..first + count {
-            eyes.read(PHOTONS, record);
+            // The leaf says where its photons are, all of them.
+            eyes.read_after(PHOTONS, record, Waits::last_above(self.level(leaf) + 1));
             let stored = self.points[record as usize];
             found.show(distance_squared(point, stored.position), stored.id);
         }
@@ -151,6 +174,10 @@ impl PhotonMap for VvhTree {
 
     fn len(&self) -> usize {
         self.points.len()
+    }
+
+    fn tells_waits(&self) -> bool {
+        true
     }
 
     fn measures(&self) -> Vec<(&'static str, Number)> {

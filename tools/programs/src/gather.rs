@@ -20,7 +20,7 @@ use photons::Photons;
 pub(crate) use pictures::FILM_BYTES;
 use pictures::Films;
 use pm_film::film::Film;
-use pm_formats::trace::TraceWriter;
+use pm_formats::trace::{Coding, TraceWriter};
 use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Photon, Step};
 use pm_gathering::{Answerer, EstimateOptions, Lookups, Precomputation, PrecomputedIrradiance, RadianceEstimate};
@@ -61,6 +61,9 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     let (map, building) = build(&args, &photons)?;
     let map = &*map;
+    if rest.waits {
+        check_waits(&args, map)?;
+    }
     let search = search(&args, map, &photons.records);
     let mut header = trace_header(&args, typed, map, &photons, &query_header);
 
@@ -153,6 +156,20 @@ fn build(args: &Args, photons: &Photons) -> anyhow::Result<(Box<dyn AnyMap>, Opt
     Ok((map, building))
 }
 
+/// Can the reads of this map say what they wait for?
+fn check_waits(args: &Args, map: &dyn AnyMap) -> anyhow::Result<()> {
+    let word = args.map.entry.word();
+    if !map.tells_waits() {
+        return Err(usage(format!(
+            "--waits: searches of `{word}` do not tell what their reads wait for; take another --map"
+        )));
+    }
+    match map.padding() {
+        Some(_) => Err(usage("--waits: a trace of it holds packed records; leave out what pads them")),
+        None => Ok(()),
+    }
+}
+
 /// How photons are searched for.
 fn search(args: &Args, map: &dyn AnyMap, photons: &[Photon]) -> Search {
     let plain = Search::new(args.k(), args.rest.max_dist);
@@ -183,6 +200,9 @@ fn options(args: &Args, photons: &Photons) -> EstimateOptions {
 fn trace_header(args: &Args, typed: &Typed, map: &dyn AnyMap, photons: &Photons, queries: &Header) -> Header {
     let mut header = queries.clone();
     header.regions = map.regions(args.rest.reread);
+    if args.rest.waits {
+        header.regions.iter_mut().for_each(|region| region.coding = Coding::Waiting);
+    }
     header.set_meaning(meaning::MAP, args.map.entry.word());
     header.set_meaning(meaning::K, args.rest.k);
     let inputs = vec![(args.first.photons.display().to_string(), photons.header.history.clone())];

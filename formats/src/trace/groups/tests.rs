@@ -2,7 +2,7 @@
 
 use crate::container::{Block, BlockMeta, Header};
 use crate::region::{Coding, MAX_IN_TURNS, Region, check_regions, lay_out};
-use crate::trace::{Access, AccessKind, BlockEncoder, TraceSink, TraceWriter, decode_searches};
+use crate::trace::{Access, AccessKind, BlockEncoder, TraceSink, TraceWriter, Waits, decode_searches};
 use proptest::prelude::*;
 
 #[derive(Default)]
@@ -104,14 +104,74 @@ proptest! {
         heads in prop::collection::vec(0u8..14, 0..24), walks in prop::collection::vec(any::<u8>(), 0..12),
         others in prop::collection::vec(any::<u8>(), 0..40)
     ) {
-        let regions = regions();
-        let lens = [heads.len(), 1, walks.len()].map(|len| (len as u32).to_le_bytes()).concat();
-        let payload = [&lens[..], &heads, &[0], &walks, &others].concat();
-        let block = Block::encode(BlockMeta { records: 1, ..BlockMeta::default() }, &payload, 3).unwrap();
-        for access in decoded(&regions, &block).map_or(vec![], |(found, _)| found.concat()) {
-            prop_assert!(regions[usize::from(access.region)].holds(access.offset, access.len));
+        let mut waiting = regions();
+        waiting.iter_mut().filter(|it| it.is_in_turns()).for_each(|it| it.coding = Coding::Waiting);
+        for regions in [regions(), waiting] {
+            let lens = [heads.len(), 1, walks.len()].map(|len| (len as u32).to_le_bytes()).concat();
+            let payload = [&lens[..], &heads, &[0], &walks, &others].concat();
+            let block = Block::encode(BlockMeta { records: 1, ..BlockMeta::default() }, &payload, 3).unwrap();
+            for access in decoded(&regions, &block).map_or(vec![], |(found, _)| found.concat()) {
+                prop_assert!(regions[usize::from(access.region)].holds(access.offset, access.len));
+            }
         }
     }
+}
+
+/// Hears what reads wait for.
+#[derive(Default)]
+struct Told(Vec<(u16, u64, Waits)>, Waits);
+
+impl TraceSink for Told {
+    fn waits(&mut self, waits: Waits) {
+        self.1 = waits;
+    }
+    fn access(&mut self, access: Access) {
+        self.0.push((access.region, access.offset / 16, std::mem::take(&mut self.1)));
+    }
+}
+
+/// A search's reads of two regions that say what they wait for, as bytes of its others.
+fn waiting(count: u8, others: &[u8]) -> Option<Vec<(u16, u64, Waits)>> {
+    let regions = lay_out([16, 16].map(|size| (String::new(), 1600, size, Coding::Waiting)));
+    let lens = [3u32, 1, 0].map(u32::to_le_bytes).concat();
+    let payload = [&lens[..], &[1, 1, count, 0], others].concat();
+    let block = Block::encode(BlockMeta { records: 1, ..BlockMeta::default() }, &payload, 3).unwrap();
+    let mut told = Told::default();
+    decode_searches(&block, &regions, &mut told).map(|_| told.0)
+}
+
+#[test]
+fn what_reads_wait_for_comes_back() {
+    let regions = lay_out([16, 16].map(|size| (String::new(), 1600, size, Coding::Waiting)));
+    let mut encoder = BlockEncoder::new(&regions);
+    encoder.begin(&[0]);
+    encoder.waiting_records(0, &[9, 4], &[Waits::NOTHING, Waits::last_above(1)]);
+    encoder.waiting_records(1, &[7], &[Waits::all_above(2)]);
+    encoder.records(1, &[8]);
+    encoder.access(Access { kind: AccessKind::Write, region: 0, len: 3, offset: 32 });
+    encoder.waiting_records(0, &[9], &[Waits::ALL_BEFORE]);
+    encoder.end();
+    let (block, _) = encoder.finish(BlockMeta::default()).unwrap();
+    let mut told = Told::default();
+    decode_searches(&block, &regions, &mut told).unwrap();
+    let expected = [
+        (0, 9, Waits::NOTHING),
+        (0, 4, Waits::last_above(1)),
+        (1, 7, Waits::all_above(2)),
+        (1, 8, Waits::NOTHING),
+        (0, 2, Waits::NOTHING),
+        (0, 9, Waits::ALL_BEFORE),
+    ];
+    assert_eq!(told.0, expected);
+    // By the words of the format: 2 level + a, then the record as in turns.
+    assert_eq!(waiting(2, &[0, 9 << 2, 2, 3 << 1 | 1]), None, "record -2");
+    assert_eq!(
+        waiting(2, &[0, 9 << 2, 3, 6 << 1 | 1]),
+        Some(vec![(0, 9, Waits::NOTHING), (1, 3, Waits::all_above(1))])
+    );
+    assert_eq!(waiting(1, &[2, 0]), None, "there is nothing at level 0");
+    assert_eq!(waiting(1, &[1, 0]), Some(vec![(0, 0, Waits::ALL_BEFORE)]));
+    assert_eq!(waiting(2, &[0, 0, 6, 0]), None, "there is nothing at level 2");
 }
 
 #[test]
@@ -183,4 +243,7 @@ fn regions_that_cannot_be_coded_together_are_refused() {
     assert_eq!(check(vec![(64, 8, Coding::InTurns); MAX_IN_TURNS + 1]), Err("more than 64 regions are coded in turns"));
     let nothing = Err("a region that is coded in turns has records of no bytes");
     assert_eq!(check(vec![(64, 0, Coding::InTurns)]), nothing);
+    let mixed = Err("of the regions that are coded in turns some say what reads wait for and some do not");
+    assert_eq!(check(vec![(64, 8, Coding::Waiting); 2]), Ok(()));
+    assert_eq!(check(vec![(64, 8, Coding::Waiting), (64, 8, Coding::InTurns)]), mixed);
 }

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::{RecordCounts, WorkingSets};
+use super::{Distribution, RecordCounts, WorkingSets};
 use crate::{CacheConfig, DramCounts};
 
 /// One cache and what the trace cost with it: exact counts as fields, ratios as methods.
@@ -47,6 +47,8 @@ pub struct AskedCounts {
     pub dram: Option<DramCounts>,
     /// Misses, compulsory ones included, that the fully associative LRU cache of the same size and line has too.
     pub missed_by_both: Option<u64>,
+    /// Searches by the longest chain of each: of misses each of which waits for the one before.
+    pub miss_chains: Option<Distribution>,
     /// Distinct lines of searches and batches; the same for all caches of a line size.
     pub working_sets: Option<Rc<WorkingSets>>,
 }

@@ -10,7 +10,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    pub(super) fn add(&mut self, count: u32) {
+    pub(crate) fn add(&mut self, count: u32) {
         *self.numbers.entry(count).or_default() += 1;
     }
 

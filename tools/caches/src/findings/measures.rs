@@ -20,6 +20,9 @@ pub struct Measures {
     pub dram: Option<Dram>,
     /// Count misses that the fully associative LRU twin misses too, to tell capacity from conflict miss by miss; with `split`.
     pub miss_by_miss: bool,
+    /// Find the longest chain of misses of each search, of a trace that says what its reads
+    /// [wait for](pm_formats::trace::Waits).
+    pub miss_chains: bool,
     /// Tell when the first cache writes lines back: for a stream of its misses.
     pub write_backs: bool,
     /// Count the distinct lines of searches and batches.

@@ -54,6 +54,11 @@ impl AccessBuffer {
         true
     }
 
+    /// Whether there is no room for another.
+    pub(crate) fn is_full(&self) -> bool {
+        self.end >= CHUNK
+    }
+
     /// Number of accesses that wait.
     pub(crate) fn len(&self) -> usize {
         self.end - self.start

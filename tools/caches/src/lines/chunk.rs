@@ -34,6 +34,8 @@ pub(crate) enum Repeats {
 #[derive(Debug, Default)]
 pub struct LineChunk {
     repeats: Repeats,
+    /// Whether somebody wants to know which line access belongs to which record.
+    numbered: bool,
     slots: Vec<u32>,
     /// The attributes of each slot, or those that all have.
     attributes: Vec<Attributes>,
@@ -43,7 +45,8 @@ pub struct LineChunk {
     len: usize,
     accesses: u64,
     writes: bool,
-    /// Where records count once: number of the record of each line access, from 1 on over the whole trace.
+    /// Where records count once, or somebody wants to know: number of the record of each line access, from 1 on over the
+    /// whole trace.
     records: Vec<u64>,
     /// The record begun last.
     record: u64,
@@ -58,13 +61,23 @@ impl LineChunk {
         Self { repeats, ..Self::default() }
     }
 
+    /// The same, and knows which line access belongs to which record, in a trace of regions laid out beforehand.
+    pub(crate) fn numbered(self, numbered: bool) -> Self {
+        Self { numbered, ..self }
+    }
+
+    /// The number of the record begun last.
+    pub(crate) fn last_record(&self) -> u64 {
+        self.record
+    }
+
     /// Replaces the content by the line accesses of `accesses` from `resume` on, and moves that on: past all records unless
     /// some are so long that they would make a chunk without bounds. False if no records are left.
     pub(crate) fn split(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) -> bool {
         if resume.records == accesses.shapes.len() {
             return false;
         }
-        if space.counts_records() {
+        if space.counts_records() || self.numbered {
             // Which line access belongs to which record is known there.
             self.writes = accesses.shapes.iter().any(|shape| shape.attributes().writes());
             self.split_long(space, accesses, resume);
@@ -180,7 +193,7 @@ impl LineChunk {
             let of_page = space.rest_of_page(first);
             self.slots.extend((from..=to).map(|i| if i < of_page { first + i } else { last - (more - i) }));
             self.attributes.resize(self.slots.len(), attributes);
-            if space.counts_records() {
+            if space.counts_records() || self.numbered {
                 self.record += u64::from(from == 0 && !accesses.goes_on(at));
                 self.records.resize(self.slots.len(), self.record);
             }
@@ -193,7 +206,7 @@ impl LineChunk {
         self.accesses = if space.counts_records() { self.record - before } else { self.len as u64 };
     }
 
-    /// Where records count once, the number of the record that the line access at an index belongs to.
+    /// Where records are numbered, the number of the record that the line access at an index belongs to.
     pub(crate) fn record(&self, index: usize) -> u64 {
         self.records[index]
     }

@@ -6,7 +6,7 @@ use super::twins::Twins;
 use crate::curves::{CurveCollector, Shards};
 use crate::findings::{SearchStart, WorkingSetCounter};
 use crate::lines::{Accesses, LineChunk, LineSpace, PAGE_SHIFT, Repeats, Resume};
-use crate::misses::{Banks, Misses, PageSwitches};
+use crate::misses::{Banks, Chains, Misses, PageSwitches, Waiting};
 use crate::models::{Answer, CacheModel, CacheOnTrace, Modelled};
 use crate::{CacheConfig, Measures, Policy, SimulationError};
 
@@ -52,6 +52,7 @@ pub(super) struct CacheOfModel {
     pub(super) counts: usize,
     pub(super) pages: Option<PageSwitches>,
     pub(super) banks: Option<Banks>,
+    pub(super) chains: Option<Chains>,
     /// Where records count once: of each region, misses of records that had missed already.
     pub(super) spared: Vec<u64>,
     /// The record that missed last.
@@ -78,11 +79,15 @@ impl LineGroup {
         let models = models(&space, members, configs, regions.len(), measures)?;
         let needed = models.iter().any(|running| running.model.repeats_matter());
         let curve = measures.curves.contains(&line_bytes);
-        let wanted =
-            measures.page_bytes.is_some() || measures.miss_by_miss || measures.dram.is_some() || space.counts_records();
+        let wanted = measures.page_bytes.is_some()
+            || measures.miss_by_miss
+            || measures.dram.is_some()
+            || measures.miss_chains
+            || space.counts_records();
+        let chunk = LineChunk::new(if needed { Repeats::Kept } else { Repeats::LeftOut });
         let twins = measures.miss_by_miss.then(|| Twins::new(&models, configs));
         Ok(Self {
-            chunk: LineChunk::new(if needed { Repeats::Kept } else { Repeats::LeftOut }),
+            chunk: chunk.numbered(measures.miss_chains),
             accesses: 0,
             twins,
             models,
@@ -103,14 +108,21 @@ impl LineGroup {
         self.misses = Misses::new(true);
     }
 
-    /// Simulates accesses, among which searches begin at `starts`.
-    pub(super) fn run(&mut self, accesses: &Accesses, counted: bool, starts: &[SearchStart]) {
+    /// Simulates accesses, among which searches begin at `starts`; what they wait for, if somebody wants to know.
+    pub(super) fn run(
+        &mut self,
+        accesses: &Accesses,
+        counted: bool,
+        starts: &[SearchStart],
+        waiting: Option<&Waiting>,
+    ) {
         if let Some(sets) = &mut self.working_sets
             && counted
         {
             sets.run(&self.space, accesses, starts);
         }
         let mut resume = Resume::default();
+        let first = self.chunk.last_record() + 1;
         while self.chunk.split(&self.space, accesses, &mut resume) {
             if counted {
                 self.accesses += self.chunk.accesses();
@@ -140,6 +152,12 @@ impl LineGroup {
             }
             if let Some(shards) = &mut self.shards {
                 shards.run(&self.space, &self.chunk, counted);
+            }
+        }
+        if let Some(waiting) = waiting {
+            let caches = self.models.iter_mut().flat_map(|running| &mut running.caches);
+            for chains in caches.filter_map(|cache| cache.chains.as_mut()) {
+                chains.run(waiting, first, accesses.shapes.len(), counted);
             }
         }
     }
@@ -188,7 +206,8 @@ fn models(
                 let pages = measures.page_bytes.map(PageSwitches::new);
                 let (config, counts) = (members[answer.cache], answer.counts);
                 let banks = measures.dram.map(Banks::new);
-                CacheOfModel { config, counts, pages, banks, spared: vec![0; regions], missed: 0 }
+                let chains = measures.miss_chains.then(|| Chains::new(configs[config].keeps_lines()));
+                CacheOfModel { config, counts, pages, banks, chains, spared: vec![0; regions], missed: 0 }
             });
             models.push(Running { model: modelled.model, caches: of_model.collect() });
         }
@@ -216,6 +235,9 @@ fn follow(
                 let record = chunk.record(miss.index as usize);
                 cache.spared[region] += u64::from(counted && cache.missed == record);
                 cache.missed = record;
+            }
+            if let Some(chains) = &mut cache.chains {
+                chains.miss(chunk.record(miss.index as usize));
             }
             if let Some(pages) = &mut cache.pages {
                 pages.fetch(line * line_bytes, line * line_bytes + (line_bytes - 1), counted);

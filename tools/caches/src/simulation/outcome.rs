@@ -5,6 +5,7 @@ use std::{collections::BTreeMap, rc::Rc};
 use super::Simulation;
 use crate::findings::ResultTraffic;
 use crate::lines::PAGE_SHIFT;
+use crate::misses::Chains;
 use crate::models::LineCounts;
 use crate::{AskedCounts, CacheConfig, CacheCounts, Findings, RecordCounts, TraceCounts};
 
@@ -39,6 +40,7 @@ impl Simulation {
                     counts.more.page_switches = pages.as_ref().map(|pages| pages.switches);
                     let banks = if config.keeps_lines() { &cache.banks } else { &self.record_banks };
                     counts.more.dram = banks.as_ref().map(|banks| banks.counts);
+                    counts.more.miss_chains = cache.chains.map(Chains::finish);
                     let twins = twins.as_ref().filter(|_| config.keeps_lines());
                     counts.more.missed_by_both = twins.map(|of| of.both(cache.config).unwrap_or(counts.fetches));
                     counts.more.working_sets = sets.clone();

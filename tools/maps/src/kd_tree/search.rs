@@ -3,9 +3,16 @@
 use super::KdTree;
 use crate::geometry::distance_squared;
 use crate::{AccessObserver, Nearest};
+use pm_formats::trace::Waits;
 
 /// Deepest tree of at most 2^30 nodes, and one more.
 const MAX_DEPTH: usize = 32;
+
+/// What a node waits for: the one above.
+#[inline(always)]
+fn waits(node: usize) -> Waits {
+    Waits::last_above(node.checked_ilog2().unwrap_or(0) as u16)
+}
 
 /// Jensen's search: the child on the query's side first, then the other if the splitting plane lies within the
 /// bound, then the node's own photon. A node is read when it is reached, and the inner ones are looked at again for
@@ -23,7 +30,7 @@ pub(super) fn nearest(tree: &KdTree, point: [f32; 3], found: &mut Nearest, eyes:
     let mut at = 1;
     loop {
         let node = &nodes[at - 1];
-        eyes.read(0, tree.record(at));
+        eyes.read_after(0, tree.record(at), waits(at));
         eyes.examined(1);
         let left = 2 * at;
         if left <= count {

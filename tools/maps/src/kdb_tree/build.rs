@@ -11,6 +11,8 @@ pub(super) struct Builder {
     pub(super) block: usize,
     /// Children of a page.
     pub(super) fan_out: usize,
+    /// Level of the root.
+    pub(super) height: u8,
     pub(super) pages: Vec<Page>,
     pub(super) children: Vec<Child>,
     pub(super) blocks: Vec<Vec<Point>>,
@@ -18,16 +20,17 @@ pub(super) struct Builder {
 
 impl Builder {
     /// The most photons below a page of this level; blocks are level 0.
-    pub(super) fn capacity(&self, level: u32) -> usize {
-        self.block.saturating_mul(self.fan_out.saturating_pow(level))
+    pub(super) fn capacity(&self, level: u8) -> usize {
+        self.block.saturating_mul(self.fan_out.saturating_pow(level.into()))
     }
 
     /// Makes region page `number` and all below it.
-    pub(super) fn page(&mut self, number: usize, points: &mut [Point], cell: Box3, level: u32) {
+    pub(super) fn page(&mut self, number: usize, points: &mut [Point], cell: Box3, level: u8) {
         let below = self.capacity(level - 1);
         let mut parts = vec![];
         cut(points, cell, points.len().div_ceil(below), below, &mut parts);
-        self.pages[number] = Page { first: self.children.len() as u32, count: parts.len() as u32 };
+        self.pages[number] =
+            Page { first: self.children.len() as u32, count: parts.len() as u32, depth: self.height - level };
         let (first_page, first_block) = (self.pages.len(), self.blocks.len());
         if level > 1 {
             self.pages.resize(first_page + parts.len(), Page::default());

@@ -69,6 +69,12 @@ pub struct Args {
     /// associative LRU cache of that size misses too
     #[arg(long, hide_short_help = true, conflicts_with_all = ["curve", "shards"])]
     pub(super) dinero: bool,
+    /// Columns for the longest chain of misses of each search, each of which waits for the one before: the mean and the longest
+    ///
+    /// What latency costs a search at the least, however much of it is in flight at a time; where nothing is, each of its
+    /// fetches waits for the one before. Needs a trace whose reads say what they wait for; pm-gather has an option for that.
+    #[arg(long, hide_short_help = true, conflicts_with_all = ["curve", "shards", "misses", "lanes"])]
+    pub(super) miss_chain: bool,
     /// DRAM page (row) to count page switches by, a power of two; as if one were open in all, --dram knows banks
     #[arg(long, value_name = "SIZE", default_value = "8K", hide_short_help = true)]
     pub(super) page: Bytes,
@@ -90,11 +96,11 @@ pub struct Args {
     ///
     /// A window begins with empty caches, so what is counted of it is the same wherever that is. Without windows caches go on from
     /// part to part: then all parts have to be given.
-    #[arg(long, conflicts_with_all = ["format", "misses", "curve", "shards", "lanes", "dram", "dinero", "add"], hide_short_help = true)]
+    #[arg(long, conflicts_with_all = ["format", "misses", "curve", "shards", "lanes", "dram", "dinero", "miss_chain", "add"], hide_short_help = true)]
     pub(super) counts: bool,
     /// The inputs are what --counts wrote of all parts: the table of the whole
     #[arg(long, conflicts_with_all = ["cache", "sizes", "lines", "ways", "policies", "misses", "curve", "shards", "lanes", "dram",
-        "dinero", "span", "page", "result_cache", "pixel", "columns"], hide_short_help = true)]
+        "dinero", "miss_chain", "span", "page", "result_cache", "pixel", "columns"], hide_short_help = true)]
     pub(super) add: bool,
     #[command(flatten)]
     pub(super) foreign: ForeignArgs,

@@ -106,8 +106,9 @@ fn measures(args: &Args) -> anyhow::Result<Measures> {
         ));
     }
     let (dram, miss_by_miss) = (args.dram, args.dinero);
-    let write_backs = args.write_backs;
-    let mut measures = Measures { span: args.span, dram, miss_by_miss, write_backs, ..Measures::default() };
+    let (write_backs, miss_chains) = (args.write_backs, args.miss_chain);
+    let mut measures =
+        Measures { span: args.span, dram, miss_by_miss, miss_chains, write_backs, ..Measures::default() };
     if args.is_curve() {
         // Whatever the size, the line must do.
         let lines = args.lines.iter().map(|line| CacheConfig::line(line.0).map_err(asked_wrongly));

@@ -8,7 +8,7 @@ use crate::cli::{Progress, named, open_bytes, room_for, usage};
 use anyhow::Context as _;
 use pm_caches::{Lanes, Measures, Simulation};
 use pm_exchange::traces::{self, Opened, Trace, TraceImport};
-use pm_formats::trace::{Access, Region, TraceReader, TraceSink};
+use pm_formats::trace::{Access, Coding, Region, TraceReader, TraceSink};
 use pm_registry::Registry;
 use std::io::Read;
 use std::path::Path;
@@ -56,6 +56,7 @@ fn simulate(
             if args.lanes.iter().any(|&lanes| lanes > 1) {
                 return Err(usage(format!("{name}: {NO_SEARCHES}")));
             }
+            check_waits(args, trace.regions()).context(name.clone())?;
             let caches = questions.caches_of(args, trace.regions()).context(name.clone())?;
             let measures = questions.measures_of_addresses();
             let simulation = Simulation::measuring(trace.regions(), &caches, &measures);
@@ -70,6 +71,16 @@ fn simulate(
 
 /// What is said where searches are to fly together and there are none.
 const NO_SEARCHES: &str = "a foreign trace has no searches for --lanes to let fly together";
+
+/// Refuses to look for chains where no read says what it waits for.
+fn check_waits(args: &Args, regions: &[Region]) -> anyhow::Result<()> {
+    match args.miss_chain && !regions.iter().any(|region| region.coding == Coding::Waiting) {
+        true => {
+            Err(usage("--miss-chain: no read of this trace says what it waits for; write it with `pm-gather --waits`"))
+        }
+        false => Ok(()),
+    }
+}
 
 /// Opens a trace of ours or of another program.
 pub(super) fn open(args: &Args, path: &Path, imports: &Registry<dyn TraceImport>) -> anyhow::Result<Opened> {
@@ -102,6 +113,7 @@ fn simulate_ours<R: Read>(
     let configs = &questions.caches_of(args, &regions)?;
     let of_addresses = regions.iter().any(Region::is_addresses);
     room_for_lines(&regions, questions)?;
+    check_waits(args, &regions)?;
     if of_addresses && args.lanes.iter().any(|&lanes| lanes > 1) {
         return Err(usage(NO_SEARCHES));
     }

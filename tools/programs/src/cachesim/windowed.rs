@@ -51,6 +51,7 @@ pub(super) fn refuse(args: &Args) -> anyhow::Result<()> {
         () if args.span == SpanRule::Once => "--span once: what a window does not know is told in lines",
         () if args.dram.is_some() => "--dram: which rows were open before a window is not known",
         () if args.dinero => "--dinero: an unbounded past is not known in a window",
+        () if args.miss_chain => "--miss-chain: what a window does not know is told in lines, not in chains",
         () if args.curve => "--curve: the state of an unbounded cache is never exact in a window",
         () if args.shards.is_some() => "--shards: the state of an unbounded cache is never exact in a window",
         () if !args.lanes.is_empty() => "--lanes: searches of other windows would be in flight with those of this one",

@@ -58,6 +58,12 @@ pub(super) struct Rest {
     /// Also log the second touch of each inner node of kd, when the search comes back to it for its own photon
     #[arg(long, hide_short_help = true)]
     pub(super) reread: bool,
+    /// Each read of the trace says which reads of its search it waits for: pm-cachesim then tells chains of misses
+    ///
+    /// Where a child lies is known when its parent is there, where a hash bucket does from the query alone. Such a trace is some
+    /// times larger; what it says of the memory is the same.
+    #[arg(long, hide_short_help = true, conflicts_with_all = ["reread", "precomputed", "carry", "no_trace"])]
+    pub(super) waits: bool,
     /// How photons become radiance
     #[arg(long, default_value = "unbiased", value_parser = choice::<Estimator>())]
     pub(super) estimator: Estimator,
@@ -222,6 +228,9 @@ impl Args {
         let output = &rest.output.output;
         if standard(&rest.report) && self.trace && (output.is_none() || standard(output)) {
             return Err(usage("--report - and the trace cannot share standard output; name a file or give --no-trace"));
+        }
+        if rest.waits && !self.trace {
+            return Err(usage("--waits is said in the trace, and none is written here: name a file for it with -o"));
         }
         if rest.base.is_some() && rest.image.is_empty() {
             return Err(usage("--base is added to a picture: ask for one with --image"));

@@ -35,6 +35,7 @@ pub(super) fn header(kind: StreamKind, version: u16, header: &Header, output: &m
                 format!(", a tree of {} leaves, which lie behind it", HumanCount(leaves.into()))
             }
             Coding::InTurns => ", read in turns".to_owned(),
+            Coding::Waiting => ", read in turns, and each read says what it waits for".to_owned(),
             Coding::Addresses => {
                 line("region", format!("{}: all addresses of 64 bits", region.name))?;
                 continue;

@@ -35,6 +35,7 @@ pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Ta
         .ratios(windowed)
         .dinero(results)
         .dram(results)
+        .miss_chains(results)
         .working_sets()
         .other_traffic()
         .windows(windowed);
@@ -108,6 +109,19 @@ impl Columns<CacheResult> {
             .ratio("activates_per_fetch", true, |of| {
                 of.counts().and_then(CacheCounts::activates_per_fetch).unwrap_or(f64::NAN)
             })
+    }
+
+    /// The longest chain of misses of a search, if somebody asked.
+    fn miss_chains(self, results: &[CacheResult]) -> Self {
+        let of_chains = |of: &CacheResult| of.counts().and_then(|counts| counts.more.miss_chains.clone());
+        if !results.iter().any(|of| of_chains(of).is_some()) {
+            return self;
+        }
+        self.ratio("miss_chain", true, move |of| of_chains(of).map_or(f64::NAN, |chains| chains.mean())).number(
+            "miss_chain_max",
+            true,
+            move |of| perhaps(of_chains(of).and_then(|it| it.max()).map(u64::from)),
+        )
     }
 
     /// Distinct lines of searches and of batches.
