@@ -73,7 +73,12 @@ fn no_method_lights_a_sealed_room() {
         ] {
             let base = if queries.starts_with("--direct") { "" } else { "--base b.exr" };
             folder.run(&format!("pm-queries -q two-rooms.obj {dark} {queries} {base} -o q.pmq")).ok();
-            let mut ways = vec!["", "--precomputed", "--precomputed --precomputed-share 1", "-k 10 --precomputed"];
+            // However wide a cell may be, and however few photons there are in it.
+            let held = pm_gathering::irradiance_structures().words().into_iter();
+            let held =
+                held.flat_map(|map| ["", "--footprint 0.02", "--footprint 9"].map(|how| format!("--map {map} {how}")));
+            let mut ways: Vec<&str> = held.map(|way| &*way.leak()).collect();
+            ways.extend(["", "--precomputed", "--precomputed --precomputed-share 1", "-k 10 --precomputed"]);
             if queries == "--gathers 9" {
                 let maps = pm_maps::structures().words();
                 let maps = maps.iter().flat_map(|map| [format!("--map {map}"), format!("--map {map} --precomputed")]);

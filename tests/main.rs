@@ -18,6 +18,7 @@ mod files;
 mod foreign;
 mod fuzz;
 mod guide;
+mod held;
 mod invariance;
 mod leaks;
 mod light;

@@ -20,7 +20,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("light", &["curves", "film", "orders", "parallel", "random", "registry", "formats"]),
     // Never light: a map is built from photons in a stream.
     ("maps", &["curves", "random", "registry", "formats"]),
-    ("gathering", &["film", "maps", "parallel", "random", "registry", "formats"]),
+    ("gathering", &["curves", "film", "maps", "parallel", "random", "registry", "formats"]),
     // Never maps: a cache sees accesses only.
     ("caches", &["random", "registry", "sampling", "size", "spool", "formats"]),
     // Never caches: it says what was accessed, not what that costs.

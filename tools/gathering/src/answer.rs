@@ -1,6 +1,6 @@
 //! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
 
-use super::{Answered, Fault, Lookups, Outcome, PrecomputedIrradiance, RadianceEstimate, Scratch, SearchCounts};
+use super::{Answered, Fault, HeldIrradiance, Lookups, Outcome, RadianceEstimate, Scratch, SearchCounts};
 use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::{Access, BlockEncoder, Coding, Region, Waits};
@@ -27,7 +27,7 @@ pub struct Answerer<'a> {
     /// The irradiance records that queries may belong to.
     pub cache: &'a CachedIrradiance,
     /// Irradiance computed beforehand, where it is to answer queries of diffuse surfaces.
-    pub precomputed: Option<&'a PrecomputedIrradiance<'a>>,
+    pub precomputed: Option<&'a dyn HeldIrradiance>,
     /// How radiance is estimated, and a film that knows the picture's unit, if a picture is wanted.
     pub estimate: Option<(&'a RadianceEstimate<'a>, &'a Film)>,
 }

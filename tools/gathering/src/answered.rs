@@ -2,7 +2,7 @@
 
 use super::Lookups;
 use pm_film::film::Overflow;
-use pm_formats::{Block, Tally};
+use pm_formats::{Block, Number, StageReport, Tally};
 use std::ops::AddAssign;
 
 /// What a block of queries became.
@@ -34,6 +34,17 @@ pub struct SearchCounts {
     pub no_area: u64,
     /// Queries of whose surface no site of precomputed irradiance knew, so that they searched.
     pub no_site: u64,
+}
+
+impl SearchCounts {
+    /// Adds so many searches that were made beforehand to a stage's report.
+    pub(super) fn report_build(&self, stage: StageReport, searches: u64) -> StageReport {
+        stage
+            .with("build_searches", Number::Count(searches))
+            .with("build_attempts", Number::Count(self.attempts))
+            .with("build_accesses", Number::Count(self.accesses))
+            .with("build_searches_without_area", Number::Count(self.no_area))
+    }
 }
 
 impl AddAssign for SearchCounts {

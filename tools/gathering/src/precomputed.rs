@@ -16,17 +16,14 @@
 mod build;
 mod search;
 
+use super::held_irradiance::{HeldIrradiance, is_diffuse, reflected};
 use super::{Outcome, SearchCounts};
 pub use build::Precomputation;
-use build::{Chunk, Known};
+use build::{Estimated, Known};
 use pm_formats::trace::{Coding, Region, lay_out};
 use pm_formats::{Material, Number, Photon, Query, StageReport, unpack_direction, unpack_rgbe};
-use pm_maps::{AccessObserver, BuildError, KdTree, Layout};
-use pm_parallel::in_order;
-use std::f64::consts::PI;
+use pm_maps::{AccessObserver, BuildError, KdTree, Layout, SearchReads};
 
-/// Photons whose irradiance one thread estimates at a time.
-const CHUNK: usize = 1024;
 /// Where irradiance was computed: the 20 bytes of a node in the traced memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
@@ -93,21 +90,8 @@ impl<'a> PrecomputedIrradiance<'a> {
     /// # Errors
     /// See [`PrecomputationError`].
     pub fn new(how: &Precomputation<'a>, threads: usize) -> Result<Self, PrecomputationError> {
-        let ids: Vec<u32> = (0..).take(how.photons.len()).step_by(how.share as usize).collect();
-        let (mut chosen, mut known, mut built) = (vec![], vec![], SearchCounts::default());
-        let mut chunks = ids.chunks(CHUNK);
-        in_order(
-            threads,
-            || Ok(chunks.next()),
-            |ids| how.irradiance_at(ids),
-            |chunk| {
-                let Chunk { sites, counts } = chunk?;
-                chosen.extend(sites.iter().map(|site| how.photons[site.id as usize]));
-                known.extend(sites);
-                built += counts;
-                Ok::<_, PrecomputationError>(())
-            },
-        )?;
+        let Estimated { known, counts: built, searches } = how.estimate(threads)?;
+        let chosen: Vec<Photon> = known.iter().map(|site| how.photons[site.id as usize]).collect();
         let tree = KdTree::build(&chosen, Layout::Heap)?;
         let nodes = || tree.nodes().map(|(axis, at)| (axis as u16, at as usize));
         let site = |(axis, at): (u16, usize)| {
@@ -124,25 +108,25 @@ impl<'a> PrecomputedIrradiance<'a> {
             share: how.share,
             region: 0,
             built,
-            searches: ids.len() as u64,
+            searches,
         })
     }
 
-    /// Is a surface of this material served? A glossy one wants to know where each photon came from, so that its queries
-    /// go to the photon map.
-    fn is_diffuse(material: &Material) -> bool {
-        material.specular.iter().all(|&share| share <= 0.0)
+    /// What `query` adds to its pixel: that of the irradiance of the nearest site that knows of its surface; `None` if there is
+    /// none.
+    fn nearest_contribution(&self, query: &Query, eyes: &mut impl AccessObserver) -> Option<Outcome> {
+        let site = self.nearest(query.position, query.normal(), eyes)?;
+        let irradiance = unpack_rgbe(self.sites[site].irradiance);
+        Some(reflected(query, &self.materials[usize::from(query.material)], irradiance))
+    }
+}
+
+impl HeldIrradiance for PrecomputedIrradiance<'_> {
+    fn serves(&self, query: &Query) -> bool {
+        is_diffuse(&self.materials[usize::from(query.material)])
     }
 
-    /// Is this query to be answered by the irradiance of a site, if one knows its surface?
-    #[must_use]
-    pub fn serves(&self, query: &Query) -> bool {
-        Self::is_diffuse(&self.materials[usize::from(query.material)])
-    }
-
-    /// The regions of a trace in which queries of diffuse surfaces read sites: the sites', after the photon map's
-    /// (`others`), which glossy surfaces read and those of which no site knows.
-    pub fn lay_out(&mut self, others: Vec<Region>) -> Vec<Region> {
+    fn lay_out(&mut self, others: Vec<Region>) -> Vec<Region> {
         self.region = u16::try_from(others.len()).expect("a map has few regions");
         let nodes = u32::try_from(self.sites.len()).expect("no more than photons");
         let record = size_of::<Site>() as u32;
@@ -152,26 +136,13 @@ impl<'a> PrecomputedIrradiance<'a> {
         lay_out(others.into_iter().map(|it| (it.name, it.size, it.record_size, it.coding)).chain([own]))
     }
 
-    /// What `query` adds to its pixel: weight x albedo / pi x irradiance of the nearest site that knows of its surface;
-    /// `None` if there is none.
-    #[must_use]
-    pub fn contribution(&self, query: &Query, eyes: &mut impl AccessObserver) -> Option<Outcome> {
-        let site = self.nearest(query.position, query.normal(), eyes)?;
-        let irradiance = unpack_rgbe(self.sites[site].irradiance);
-        let diffuse = self.materials[usize::from(query.material)].diffuse;
-        Some(Outcome::Radiance([0, 1, 2].map(|channel| {
-            f64::from(query.weight[channel]) * (irradiance[channel] * (f64::from(diffuse[channel]) / PI))
-        })))
+    fn contribution(&self, query: &Query, reads: &mut SearchReads) -> Option<Outcome> {
+        self.nearest_contribution(query, reads)
     }
 
-    /// Adds what was done beforehand to a stage's report.
-    #[must_use]
-    pub fn report(&self, stage: StageReport) -> StageReport {
-        stage
-            .with("build_searches", Number::Count(self.searches))
-            .with("build_attempts", Number::Count(self.built.attempts))
-            .with("build_accesses", Number::Count(self.built.accesses))
-            .with("build_searches_without_area", Number::Count(self.built.no_area))
+    fn report(&self, stage: StageReport) -> StageReport {
+        self.built
+            .report_build(stage, self.searches)
             .with("precomputed_sites", Number::Count(self.sites.len() as u64))
             .with("precomputed_bytes", Number::Bytes(size_of_val(&self.sites[..]) as u64))
     }

@@ -23,7 +23,10 @@ use pm_film::film::Film;
 use pm_formats::trace::{Coding, TraceWriter};
 use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Photon, Step};
-use pm_gathering::{Answerer, EstimateOptions, Lookups, Precomputation, PrecomputedIrradiance, RadianceEstimate};
+use pm_gathering::{
+    Answerer, EstimateOptions, FOOTPRINT, Footprint, HeldIrradiance, IrradianceCells, Lookups, Precomputation,
+    PrecomputedIrradiance, RadianceEstimate,
+};
 use pm_maps::{AnyMap, BuildError, Search, Setting, StartRadius, Structure};
 use pm_registry::Registry;
 use std::ffi::OsString;
@@ -71,12 +74,12 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let images: Vec<(&PathBuf, Output)> =
         rest.image.iter().map(|path| Ok((path, create_output(path)?))).collect::<anyhow::Result<_>>()?;
     let report = rest.report.as_ref().map(|path| create_output(path)).transpose()?;
-    let estimate = (rest.precomputed || report.is_some() || !images.is_empty()).then(|| {
+    let estimate = (args.holds() || report.is_some() || !images.is_empty()).then(|| {
         let (paths, options) = (photons.emitted_paths, options(&args, &photons));
         RadianceEstimate::new(&photons.records, &query_header.materials, paths, options).in_order(map.order())
     });
     let precomputed = match &estimate {
-        Some(estimate) if rest.precomputed => {
+        Some(estimate) if args.holds() => {
             let how = Precomputation {
                 map,
                 search,
@@ -86,7 +89,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
                 share: rest.precomputed_share,
                 materials: &query_header.materials,
             };
-            Some(precompute(&how, rest.common.threads(), &mut header)?)
+            Some(precompute(&how, &args, &query_header, &mut header)?)
         }
         _ => None,
     };
@@ -112,7 +115,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
         reread: rest.reread,
         regions: trace.is_some().then_some(&header.regions[..]),
         cache: &cache,
-        precomputed: precomputed.as_ref(),
+        precomputed: precomputed.as_deref(),
         estimate: estimate.as_ref().filter(|_| !images.is_empty()).map(|estimate| (estimate, &unit)),
     };
     let asked = Asked { name, blocks, first: block, beside };
@@ -130,7 +133,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if let Some(trace) = trace {
         let mut stages = done.end.stages.clone();
         // As it has been since there are sites: a trace without them says nothing of gathering in its end block.
-        stages.extend(precomputed.iter().map(|sites| stage::stage(typed, &photons, map, &search, &done, sites)));
+        stages.extend(precomputed.iter().map(|sites| stage::stage(typed, &photons, map, &search, &done, &**sites)));
         trace.finish(stages)?.commit()?;
     }
     Ok(())
@@ -210,14 +213,23 @@ fn trace_header(args: &Args, typed: &Typed, map: &dyn AnyMap, photons: &Photons,
     header
 }
 
-/// Irradiance computed beforehand, whose sites get a region of the trace.
+/// Irradiance computed beforehand, whose structure gets regions of the trace.
 fn precompute<'a>(
     how: &Precomputation<'a>,
-    threads: usize,
+    args: &Args,
+    queries: &Header,
     header: &mut Header,
-) -> anyhow::Result<PrecomputedIrradiance<'a>> {
-    let mut sites = PrecomputedIrradiance::new(how, threads)?;
-    header.regions = sites.lay_out(std::mem::take(&mut header.regions));
-    header.set_meaning(meaning::PRECOMPUTED, &sites);
-    Ok(sites)
+) -> anyhow::Result<Box<dyn HeldIrradiance + 'a>> {
+    let threads = args.rest.common.threads();
+    let mut held: Box<dyn HeldIrradiance> = match args.structure_held() {
+        Some(structure) => {
+            let given = args.map.values.length_if_any(FOOTPRINT.name).map(Footprint::Fixed);
+            let footprint = given.unwrap_or_else(|| Footprint::of_rays(queries));
+            Box::new(IrradianceCells::new(how, structure, footprint, threads)?)
+        }
+        None => Box::new(PrecomputedIrradiance::new(how, threads)?),
+    };
+    header.regions = held.lay_out(std::mem::take(&mut header.regions));
+    header.set_meaning(meaning::PRECOMPUTED, &held);
+    Ok(held)
 }

@@ -4,8 +4,11 @@ use super::PrecomputationError;
 use crate::{RadianceEstimate, Scratch, SearchCounts};
 use pm_formats::{Material, Photon, pack_rgbe};
 use pm_maps::{AnyMap, Nearest, Search, SearchReads};
+use pm_parallel::in_order;
 use pm_random::Random;
 
+/// Photons whose irradiance one thread estimates at a time.
+pub(super) const CHUNK: usize = 1024;
 /// What the random numbers that round irradiance are for: its own word, so that they are no others'.
 const ROUNDING: u64 = 0x6972_7261_6469_616e;
 
@@ -28,24 +31,59 @@ pub struct Precomputation<'a> {
 }
 
 /// What is known at a site.
-pub(super) struct Known {
+pub(crate) struct Known {
     /// Of the photon there.
-    pub(super) id: u32,
+    pub(crate) id: u32,
     /// RGBE.
-    pub(super) irradiance: [u8; 4],
+    pub(crate) irradiance: [u8; 4],
     /// The upper half of the squared distance, as a float, up to which it counts.
     pub(super) reach: u16,
 }
 
+impl Known {
+    /// Squared distance up to which it counts.
+    pub(crate) fn reach_squared(&self) -> f32 {
+        f32::from_bits(u32::from(self.reach) << 16)
+    }
+}
+
+/// What is known of all sites, and what it took.
+#[derive(Default)]
+pub(crate) struct Estimated {
+    pub(crate) known: Vec<Known>,
+    pub(crate) counts: SearchCounts,
+    /// Sites that were asked for.
+    pub(crate) searches: u64,
+}
+
 /// What is known of some sites.
-pub(super) struct Chunk {
-    pub(super) sites: Vec<Known>,
-    pub(super) counts: SearchCounts,
+struct Chunk {
+    sites: Vec<Known>,
+    counts: SearchCounts,
 }
 
 impl Precomputation<'_> {
+    /// The irradiance at every `share`-th photon. Photons whose nearest all lie at one point say nothing and are left out.
+    pub(crate) fn estimate(&self, threads: usize) -> Result<Estimated, PrecomputationError> {
+        let ids: Vec<u32> = (0..).take(self.photons.len()).step_by(self.share as usize).collect();
+        let mut all = Estimated { searches: ids.len() as u64, ..Estimated::default() };
+        let mut chunks = ids.chunks(CHUNK);
+        in_order(
+            threads,
+            || Ok(chunks.next()),
+            |ids| self.irradiance_at(ids),
+            |chunk| {
+                let Chunk { sites, counts } = chunk?;
+                all.known.extend(sites);
+                all.counts += counts;
+                Ok::<_, PrecomputationError>(())
+            },
+        )?;
+        Ok(all)
+    }
+
     /// The irradiance at these photons, where there is any to be had.
-    pub(super) fn irradiance_at(&self, ids: &[u32]) -> Result<Chunk, PrecomputationError> {
+    fn irradiance_at(&self, ids: &[u32]) -> Result<Chunk, PrecomputationError> {
         let (mut found, mut scratch) = (Nearest::new(self.search.k, 0.0), Scratch::default());
         let mut reads = SearchReads::with_rereads(self.reread);
         let mut counts = SearchCounts::default();

@@ -1,5 +1,6 @@
 //! Is precomputed irradiance the estimate at the sites, found as looking at every site finds it?
 
+use super::build::CHUNK;
 use super::*;
 use crate::{Edges, EstimateOptions, Estimator, Kernel, RadianceEstimate, Scratch};
 use bytemuck::Zeroable as _;
@@ -8,6 +9,7 @@ use pm_formats::{BlockMeta, Header};
 use pm_maps::geometry::distance_squared;
 use pm_maps::{Blind, BruteForce, Nearest, Search, SearchReads};
 use pm_random::Random;
+use std::f64::consts::PI;
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 const NORMALS: [[f32; 3]; 4] = [UP, [0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.6, 0.8, 0.0]];
@@ -129,7 +131,7 @@ fn at_a_site_it_is_the_estimate() {
             let (mut found, mut scratch) = (Nearest::new(20, 0.0), Scratch::default());
             how.search.run(how.map, query.position, &mut found, &mut Blind);
             let Outcome::Radiance(expected) = how.estimate.contribution(&query, &found, &mut scratch) else { panic!() };
-            let Some(Outcome::Radiance(found)) = sites.contribution(&query, &mut Blind) else { panic!() };
+            let Some(Outcome::Radiance(found)) = sites.nearest_contribution(&query, &mut Blind) else { panic!() };
             // Photons are white, so that each mantissa is at least 128: off by at most one of them.
             let off = (0..3).map(|channel| (found[channel] / expected[channel] - 1.0).abs()).fold(0.0, f64::max);
             assert!(off < 1.0 / 128.0, "{id}: {found:?} for {expected:?}");
@@ -153,7 +155,7 @@ fn an_even_density_is_seen_without_bias() {
                 for _ in 0..points {
                     let query = query([random.unit() - 0.5, 0.0, random.unit() - 0.5], UP);
                     // Where no site is near the query searches, as everybody's would.
-                    let outcome = sites.contribution(&query, &mut Blind).unwrap_or_else(|| {
+                    let outcome = sites.nearest_contribution(&query, &mut Blind).unwrap_or_else(|| {
                         let (mut found, mut scratch) = (Nearest::new(k, 0.0), Scratch::default());
                         how.search.run(how.map, query.position, &mut found, &mut Blind);
                         how.estimate.contribution(&query, &found, &mut scratch)
@@ -174,7 +176,7 @@ fn where_nothing_can_be_said_there_is_no_site() {
     let spot = vec![photon([0.5; 3], UP); 100];
     with_sites(&spot, Search::new(10, f32::INFINITY), 4, |sites, _| {
         assert_eq!((sites.sites.len(), sites.searches, sites.built.no_area), (0, 25, 25));
-        assert_eq!(sites.contribution(&query([0.5; 3], UP), &mut Blind), None);
+        assert_eq!(sites.nearest_contribution(&query([0.5; 3], UP), &mut Blind), None);
     });
 }
 
@@ -184,7 +186,7 @@ fn a_site_counts_within_its_own_radius_near_the_plane_and_on_the_same_side() {
     let row: Vec<_> = (0..101u8).map(|i| photon([f32::from(i), 0.0, 0.0], UP)).collect();
     with_sites(&row, Search::new(10, f32::INFINITY), 20, |sites, _| {
         assert_eq!(sites.sites.len(), 6);
-        let answered = |at, normal| sites.contribution(&query(at, normal), &mut Blind).is_some();
+        let answered = |at, normal| sites.nearest_contribution(&query(at, normal), &mut Blind).is_some();
         assert!(answered([43.5, 0.0, 0.0], UP) && !answered([43.6, 0.0, 0.0], UP));
         assert!(answered([106.2, 0.0, 0.0], UP) && !answered([106.5, 0.0, 0.0], UP));
         assert!(!answered([40.0, 0.0, 0.0], [1.0, 0.0, 0.0]) && !answered([40.0, 0.0, 0.0], [0.0, -1.0, 0.0]));
@@ -192,7 +194,7 @@ fn a_site_counts_within_its_own_radius_near_the_plane_and_on_the_same_side() {
         assert!(answered([40.0, 0.43, 0.0], UP) && !answered([40.0, 0.45, 0.0], UP));
     });
     with_sites(&row, Search::new(10, 2.0), 20, |sites, _| {
-        let answered = |x| sites.contribution(&query([x, 0.0, 0.0], UP), &mut Blind).is_some();
+        let answered = |x| sites.nearest_contribution(&query([x, 0.0, 0.0], UP), &mut Blind).is_some();
         assert!(answered(41.4) && !answered(41.5), "a limit of the search is the radius of its disc");
     });
 }
@@ -205,7 +207,7 @@ fn a_site_does_not_count_beyond_the_edge_that_its_photons_show() {
     let wall = (0..400).map(|i| photon([0.0, cell(i)[0], cell(i)[1]], [1.0, 0.0, 0.0]));
     let photons: Vec<_> = floor.chain(wall).collect();
     with_sites(&photons, Search::new(60, f32::INFINITY), 1, |sites, _| {
-        let answered = |x| sites.contribution(&query([x, 0.0, 1.0], UP), &mut Blind).is_some();
+        let answered = |x| sites.nearest_contribution(&query([x, 0.0, 1.0], UP), &mut Blind).is_some();
         assert!(answered(0.05) && answered(0.09) && answered(0.5));
         assert!(!answered(-0.01) && !answered(-0.2), "the room behind the wall");
     });

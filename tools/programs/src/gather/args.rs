@@ -5,7 +5,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches as _};
 use pm_formats::Header;
 use pm_formats::vocabulary::meaning;
-use pm_gathering::{Edges, Estimator, Kernel};
+use pm_gathering::{Edges, Estimator, IrradianceStructure, Kernel, irradiance_structures};
 use pm_maps::{LINE, StartRadius, Structure, fastest};
 use pm_registry::{Chosen, Registry};
 use std::io::{self, IsTerminal as _};
@@ -20,6 +20,8 @@ pub(super) struct Args {
     pub(super) trace: bool,
     /// Was the number of photons of a search typed?
     k_is_typed: bool,
+    /// Was it typed how many photons hold irradiance?
+    share_is_typed: bool,
     pub(super) first: First,
     pub(super) rest: Rest,
 }
@@ -74,9 +76,9 @@ pub(super) struct Rest {
     /// glossy surfaces search for k as ever. Some error for far fewer reads; k should be well above 16.
     #[arg(long, conflicts_with = "report")]
     pub(super) precomputed: bool,
-    /// One of how many photons holds precomputed irradiance
+    /// One of how many photons holds precomputed irradiance, with --precomputed, --map brick and --map cell-cache
     #[arg(
-        long, value_name = "N", default_value = "4", requires = "precomputed", hide_short_help = true,
+        long, value_name = "N", default_value = "4", hide_short_help = true,
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub(super) precomputed_share: u32,
@@ -153,6 +155,8 @@ fn start_radius(text: &str) -> Result<StartRadius, String> {
 pub(super) fn command(
     structures: &Registry<dyn Structure>,
 ) -> (Command, impl FnOnce(&ArgMatches) -> Result<Args, clap::Error> + use<>) {
+    // Beside the photon maps, what holds irradiance instead.
+    let structures = &irradiance_structures().iter().fold(structures.clone(), |all, held| all.with(held));
     let map = Arg::new("map").long("map").value_name("MAP").help("Structure of the photon map");
     let maps =
         Chooser::automatic(structures, map, "the paper's where reads are told of, else the fastest, and --carry");
@@ -166,8 +170,9 @@ pub(super) fn command(
         let unseen = !trace && rest.report.is_none() && !rest.reread;
         let of: &[&dyn Structure] = if unseen { &[fastest(), usual] } else { &[usual] };
         let (map, hurry) = (maps.read_or_choose(matches, of)?, unseen && maps.is_left(matches));
-        let k_is_typed = matches.value_source("k") == Some(ValueSource::CommandLine);
-        Ok(Args { map, hurry, trace, k_is_typed, first, rest })
+        let is_typed = |name: &str| matches.value_source(name) == Some(ValueSource::CommandLine);
+        let (k_is_typed, share_is_typed) = (is_typed("k"), is_typed("precomputed_share"));
+        Ok(Args { map, hurry, trace, k_is_typed, share_is_typed, first, rest })
     };
     (command, read)
 }
@@ -185,6 +190,16 @@ impl Args {
     /// Does a search start from what the one before it knows?
     pub(super) const fn carry(&self) -> bool {
         self.rest.carry || self.hurry
+    }
+
+    /// The structure of held irradiance that was asked for instead of a photon map.
+    pub(super) fn structure_held(&self) -> Option<&'static dyn IrradianceStructure> {
+        irradiance_structures().find(self.map.entry.word()).ok()
+    }
+
+    /// Is irradiance computed beforehand?
+    pub(super) fn holds(&self) -> bool {
+        self.rest.precomputed || self.structure_held().is_some()
     }
 
     /// Bytes of a line, in which reads are described.
@@ -212,6 +227,26 @@ impl Args {
         self.rest.kernel.unwrap_or(if caustics { Kernel::Cone } else { Kernel::Constant })
     }
 
+    /// Refuses what does not go together with irradiance that is held beforehand, or nothing without it.
+    fn check_held(&self) -> anyhow::Result<()> {
+        let word = self.map.entry.word();
+        match self.structure_held() {
+            Some(_) if self.rest.precomputed => {
+                Err(usage(format!("--precomputed: --map {word} holds irradiance itself; leave out one of them")))
+            }
+            Some(_) if self.rest.report.is_some() => {
+                Err(usage(format!("--report describes searches for photons; --map {word} looks irradiance up")))
+            }
+            Some(_) if self.rest.waits => Err(usage(format!(
+                "--waits: lookups in `{word}` do not tell what their reads wait for; take another --map"
+            ))),
+            None if self.share_is_typed && !self.rest.precomputed => {
+                Err(usage("--precomputed-share: give --precomputed, or a --map that holds irradiance"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Is there anything that cannot be done, whatever the files hold?
     pub(super) fn check(&self) -> anyhow::Result<()> {
         let Self { first, rest, .. } = self;
@@ -224,6 +259,7 @@ impl Args {
         if !rest.exposure.is_finite() {
             return Err(usage("--exposure: a finite number of stops is expected"));
         }
+        self.check_held()?;
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(|path| path == Path::new("-"));
         let output = &rest.output.output;
         if standard(&rest.report) && self.trace && (output.is_none() || standard(output)) {

@@ -10,7 +10,7 @@ use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Tally};
-use pm_gathering::Answered;
+use pm_gathering::{Answered, FOOTPRINT};
 use pm_pictures::{Frame, Picture, PictureFormat};
 use std::path::{Path, PathBuf};
 
@@ -74,7 +74,12 @@ pub(super) fn origin(args: &Args, photons: &Photons, queries: &Header, tally: Ta
         ("photonmap.photons", told(photons.tally)),
         (QUERIES, told(tally)),
     ];
-    if args.rest.precomputed {
+    if let Some(structure) = args.structure_held() {
+        let footprint = args.map.values.length_if_any(FOOTPRINT.name).map_or("the rays'".to_owned(), |x| x.to_string());
+        let (share, name) = (args.rest.precomputed_share, structure.name());
+        attributes
+            .push(("photonmap.precomputed", format!("at 1 of {share} photons, in {name}, footprint {footprint}")));
+    } else if args.rest.precomputed {
         attributes.push(("photonmap.precomputed", format!("at 1 of {} photons", args.rest.precomputed_share)));
     }
     attributes.extend(queries.meaning(meaning::GATHERS).map(|gathers| ("photonmap.gathers", gathers.to_owned())));

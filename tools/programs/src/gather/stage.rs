@@ -5,7 +5,7 @@ use super::photons::Photons;
 use crate::cli::Typed;
 use pm_formats::vocabulary::measure;
 use pm_formats::{Number, StageReport};
-use pm_gathering::PrecomputedIrradiance;
+use pm_gathering::HeldIrradiance;
 use pm_maps::{AnyMap, Search};
 
 /// The stage of this program.
@@ -15,7 +15,7 @@ pub(super) fn stage(
     map: &dyn AnyMap,
     search: &Search,
     done: &Done,
-    sites: &PrecomputedIrradiance<'_>,
+    held: &dyn HeldIrradiance,
 ) -> StageReport {
     let counts = done.counts;
     let stage = StageReport::new(typed.program())
@@ -27,5 +27,5 @@ pub(super) fn stage(
         .with(measure::SHORT_LOOKUPS, Number::Count(counts.short))
         .with(measure::LOOKUPS_WITHOUT_AREA, Number::Count(counts.no_area));
     let stage = map.measures().into_iter().fold(stage, |stage, (name, number)| stage.with(name, number));
-    sites.report(stage.with(measure::LOOKUPS_WITHOUT_SITE, Number::Count(counts.no_site)))
+    held.report(stage.with(measure::LOOKUPS_WITHOUT_SITE, Number::Count(counts.no_site)))
 }
