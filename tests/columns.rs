@@ -23,9 +23,14 @@ fn every_column_stands_in_the_dictionary() {
     folder.run("pm-gather map.pmp w.pmq -o w.pmt").ok();
     folder.run("pm-gather --waits map.pmp q.pmq -o c.pmt").ok();
     let mut found = BTreeSet::new();
-    for options in
-        ["t.pmt", "w.pmt", "--dinero --dram 32,8K,open t.pmt", "--miss-chain c.pmt", "--curve --shards 0.5 t.pmt"]
-    {
+    for options in [
+        "t.pmt",
+        "w.pmt",
+        "--dinero --dram 32,8K,open t.pmt",
+        "--miss-chain c.pmt",
+        "--private 2 --shared 1M,full,128,lru t.pmt",
+        "--curve --shards 0.5 t.pmt",
+    ] {
         let csv = folder.run(&format!("pm-cachesim -q --format csv {options}")).ok();
         found.extend(names(csv.text()));
     }

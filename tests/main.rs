@@ -30,6 +30,7 @@ mod pictures;
 mod pipes;
 mod plan;
 mod precomputed;
+mod private;
 mod readme;
 mod recipes;
 mod same_scene;

@@ -211,16 +211,18 @@ fn every_claim_of_the_paper_has_a_verdict() {
     let (listed, files, _) = judge("--with list=1");
     assert!(listed && files.lines().count() > 50, "{files}");
     let columns = ["bytes_fetched", "bytes_per_query", "fetches_per_query", "fetches_per_block", "reads_per_query"];
-    let columns = [&columns[..], &["queries", "blocks", "blocks_unreferenced"]].concat();
-    let (mut names, mut ones) = ("cache_bytes,ways".to_owned(), String::new());
+    let columns = [&columns[..], &["queries", "blocks", "blocks_unreferenced", "miss_chain"]].concat();
+    let columns = [&columns[..], &["ordering_seconds", "gathering_seconds"]].concat();
+    let (mut names, mut ones) = ("private,cache_bytes,ways".to_owned(), String::new());
     for column in columns {
         names = format!("{names},{column}");
         ones += ",1";
     }
-    let mut rows = names;
+    let (mut rows, mut elements) = (names, [1, 16, 64].into_iter().chain(100..));
     for size in [32, 128, 256, 1024] {
         for ways in ["full", "8"] {
-            rows += &format!("\n{},{ways}{ones}", size * 1024);
+            let private = elements.next().expect("numbers never end");
+            rows += &format!("\n{private},{},{ways}{ones}", size * 1024);
         }
     }
     for file in files.lines() {

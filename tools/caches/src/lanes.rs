@@ -4,6 +4,7 @@
 //! The lanes take turns, one access each. The order within a search is kept; a lane whose search is over begins its next
 //! one on its next turn. With one lane nothing changes.
 
+mod batches;
 mod parts;
 mod stream;
 #[cfg(test)]
@@ -13,6 +14,7 @@ use std::io;
 
 use pm_formats::trace::{Access, TraceSink};
 
+use batches::Batches;
 use parts::Parts;
 use stream::Stream;
 
@@ -24,6 +26,16 @@ pm_registry::choices! {
         Stream = "stream",
         /// A part of the batch of its own, all parts consecutive and of the same number of searches
         Parts = "parts",
+        /// A batch of its own, such as a tile: as many as there are lanes, and when all are over as many again
+        Batches = "batches",
+    }
+}
+
+/// Who listens to lanes.
+pub trait LaneSink: TraceSink {
+    /// What follows, [`block`](TraceSink::block) excepted, is of the search of this lane.
+    fn lane(&mut self, lane: usize) {
+        let _ = lane;
     }
 }
 
@@ -31,7 +43,7 @@ pm_registry::choices! {
 ///
 /// What the sink hears is interleaved: with more than one lane, an access need not belong to the search that began last,
 /// and [`block`](TraceSink::block) comes whenever the batch or the warm-up of what follows is another. Memory is bounded by
-/// the lanes' own searches and one more; from parts, a batch waits in a temporary file.
+/// the lanes' own searches and one more; from parts a batch waits in a temporary file, and so do the batches of all lanes.
 pub struct Lanes<S> {
     listener: Listener<S>,
     lanes: usize,
@@ -53,6 +65,7 @@ struct Origin {
 enum Waiting {
     Stream(Stream),
     Parts(Parts),
+    Batches(Batches),
 }
 
 /// A sink, and the block it was told of last.
@@ -61,10 +74,11 @@ struct Listener<S> {
     told: Option<Origin>,
 }
 
-impl<S: TraceSink> Listener<S> {
-    /// Says to which block the next event belongs, if it is another. Returns the sink, for the event.
+impl<S: LaneSink> Listener<S> {
+    /// Says to which lane the next event belongs, and to which block, if it is another. Returns the sink, for the event.
     #[inline]
-    fn at(&mut self, origin: Origin) -> &mut S {
+    fn at(&mut self, lane: usize, origin: Origin) -> &mut S {
+        self.sink.lane(lane);
         if self.told != Some(origin) {
             self.told = Some(origin);
             self.sink.block(origin.batch, origin.warm_up);
@@ -73,7 +87,7 @@ impl<S: TraceSink> Listener<S> {
     }
 }
 
-impl<S: TraceSink> Lanes<S> {
+impl<S: LaneSink> Lanes<S> {
     /// `lanes` searches at a time, at least one.
     ///
     /// # Errors
@@ -83,6 +97,7 @@ impl<S: TraceSink> Lanes<S> {
         let waiting = match source {
             LaneSource::Stream => Waiting::Stream(Stream::new(lanes)),
             LaneSource::Parts => Waiting::Parts(Parts::new()?),
+            LaneSource::Batches => Waiting::Batches(Batches::new()?),
         };
         let listener = Listener { sink, told: None };
         Ok(Self { listener, lanes, origin: Origin::default(), waiting, fault: None })
@@ -97,6 +112,11 @@ impl<S: TraceSink> Lanes<S> {
             stream.fly(true, &mut self.listener);
         }
         self.play_batch();
+        if let Waiting::Batches(batches) = &mut self.waiting
+            && self.fault.is_none()
+        {
+            self.fault = batches.play(&mut self.listener).err();
+        }
         self.fault.map_or(Ok(self.listener.sink), Err)
     }
 
@@ -110,7 +130,7 @@ impl<S: TraceSink> Lanes<S> {
     }
 }
 
-impl<S: TraceSink> TraceSink for Lanes<S> {
+impl<S: LaneSink> TraceSink for Lanes<S> {
     fn block(&mut self, batch: u64, warm_up: bool) {
         if batch != self.origin.batch {
             self.play_batch();
@@ -123,6 +143,11 @@ impl<S: TraceSink> TraceSink for Lanes<S> {
             Waiting::Stream(stream) => stream.begin(self.origin, destinations),
             Waiting::Parts(parts) => {
                 if let Err(error) = parts.begin(self.origin, destinations) {
+                    self.fault.get_or_insert(error);
+                }
+            }
+            Waiting::Batches(batches) => {
+                if let Err(error) = batches.begin(self.origin, destinations, self.lanes, &mut self.listener) {
                     self.fault.get_or_insert(error);
                 }
             }
@@ -140,6 +165,11 @@ impl<S: TraceSink> TraceSink for Lanes<S> {
                     self.fault.get_or_insert(error);
                 }
             }
+            Waiting::Batches(batches) => {
+                if let Err(error) = batches.access(access) {
+                    self.fault.get_or_insert(error);
+                }
+            }
         }
     }
 
@@ -151,6 +181,11 @@ impl<S: TraceSink> TraceSink for Lanes<S> {
             }
             Waiting::Parts(parts) => {
                 if let Err(error) = parts.end() {
+                    self.fault.get_or_insert(error);
+                }
+            }
+            Waiting::Batches(batches) => {
+                if let Err(error) = batches.end() {
                     self.fault.get_or_insert(error);
                 }
             }

@@ -49,6 +49,7 @@ mod models;
 #[cfg(test)]
 mod plain_lru;
 mod policies;
+mod private;
 mod simulation;
 pub mod trial;
 mod windows;
@@ -59,10 +60,11 @@ pub use findings::{
     AskedCounts, CacheCounts, Distribution, Findings, Measures, RecordCounts, ResultMemory, SECTOR_BYTES, SpanRule,
     TraceCounts, WorkingSets,
 };
-pub use lanes::{LaneSource, Lanes};
+pub use lanes::{LaneSink, LaneSource, Lanes};
 pub use lines::{Attributes, LineChunk, LineSpace};
 pub use misses::{BankMap, Dram, DramCounts, DramError, MissStream, MissStreamError, Misses, RowPolicy};
 pub use models::{Answer, CacheModel, CacheOnTrace, LineCounts, Modelled, Replacement};
 pub use policies::{ChosenPolicy, Policy, UnknownPolicy, WaysNeeded, policies};
+pub use private::{PrivateCaches, PrivateCounts};
 pub use simulation::{Simulation, SimulationError};
 pub use windows::{CountedWindows, WindowCounts, WindowError, WindowedCounts, Windows};

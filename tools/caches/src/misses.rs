@@ -13,6 +13,7 @@ pub(crate) use dram::Banks;
 pub use dram::{BankMap, Dram, DramCounts, DramError, RowPolicy};
 pub(crate) use page_switches::PageSwitches;
 pub use stream::{MissStream, MissStreamError};
+pub(crate) use stream::{access_of, hold_lines};
 
 /// The misses of the chunk in hand, for whoever wants to follow them.
 #[derive(Debug, Default)]

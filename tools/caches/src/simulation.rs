@@ -23,7 +23,7 @@ use crate::config::check_line;
 use crate::findings::{ResultTraffic, SearchStart};
 use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places};
 use crate::misses::{Banks, PageSwitches, Waiting};
-use crate::{CacheConfig, CacheCounts, Measures, RecordCounts};
+use crate::{CacheConfig, CacheCounts, LaneSink, Measures, RecordCounts};
 use error::check_regions;
 use line_group::LineGroup;
 pub(crate) use line_group::Moved;
@@ -221,11 +221,28 @@ impl Simulation {
         self.groups.iter_mut().for_each(LineGroup::keep_fetched);
     }
 
+    /// The same, and of each the number of the access is kept for [`take_fetched_by`](Self::take_fetched_by); not of a trace of
+    /// all addresses.
+    pub(crate) fn keep_fetched_by(&mut self) {
+        self.groups.iter_mut().for_each(LineGroup::keep_fetched_by);
+    }
+
+    /// As [`take_fetched`](Self::take_fetched), each with the number of the access that fetched it, from 1 on.
+    pub(crate) fn take_fetched_by(&mut self) -> Vec<(u64, Moved)> {
+        self.flush();
+        let kept = |group: &mut LineGroup| {
+            let Some(kept) = &mut group.fetched else { return vec![] };
+            let by = kept.by.as_mut().map(std::mem::take).unwrap_or_default();
+            by.into_iter().zip(std::mem::take(&mut kept.moves)).collect::<Vec<_>>()
+        };
+        self.groups.iter_mut().flat_map(kept).collect()
+    }
+
     /// Simulates what is waiting and moves what was fetched and, if it is measured, written back to `fetched`.
     pub(crate) fn take_fetched(&mut self, fetched: &mut Vec<Moved>) {
         self.flush();
         let kept = self.groups.iter_mut().filter_map(|group| group.fetched.as_mut());
-        kept.for_each(|kept| fetched.append(kept));
+        kept.for_each(|kept| fetched.append(&mut kept.moves));
     }
 
     /// Ends the simulation: the counts of each cache, in the order they were given.
@@ -238,6 +255,8 @@ impl Simulation {
         self.findings().caches
     }
 }
+
+impl LaneSink for Simulation {}
 
 impl TraceSink for Simulation {
     fn block(&mut self, batch: u64, warm_up: bool) {

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::{Distribution, RecordCounts, WorkingSets};
-use crate::{CacheConfig, DramCounts};
+use crate::{CacheConfig, DramCounts, PrivateCounts};
 
 /// One cache and what the trace cost with it: exact counts as fields, ratios as methods.
 ///
@@ -49,6 +49,8 @@ pub struct AskedCounts {
     pub missed_by_both: Option<u64>,
     /// Searches by the longest chain of each: of misses each of which waits for the one before.
     pub miss_chains: Option<Distribution>,
+    /// Where the cache is one of several private ones, what they have in common.
+    pub private: Option<Box<PrivateCounts>>,
     /// Distinct lines of searches and batches; the same for all caches of a line size.
     pub working_sets: Option<Rc<WorkingSets>>,
 }

@@ -2,10 +2,10 @@
 
 use std::io;
 
-use pm_formats::trace::{Access, TraceSink};
+use pm_formats::trace::Access;
 use pm_spool::{Cursor, Event, Spool};
 
-use super::{Listener, Origin};
+use super::{LaneSink, Listener, Origin};
 
 /// The batch in hand, and where each search begins in it.
 pub(super) struct Parts {
@@ -37,7 +37,7 @@ impl Parts {
     }
 
     /// Lets the batch fly, in as many parts as there are lanes, and forgets it.
-    pub(super) fn play<S: TraceSink>(
+    pub(super) fn play<S: LaneSink>(
         &mut self,
         lanes: usize,
         origin: Origin,
@@ -51,34 +51,46 @@ impl Parts {
         self.spool.flush()?;
         let first = |part: usize| self.starts[(part as u128 * searches as u128 / lanes as u128) as usize];
         let part = |lane| Some((self.spool.cursor(first(lane), first(lane + 1)), origin));
-        let mut parts: Vec<Option<(Cursor, Origin)>> = (0..lanes).map(part).collect();
-        while parts.iter().any(Option::is_some) {
-            for part in &mut parts {
-                let Some((cursor, origin)) = part else { continue };
-                if !turn(cursor, origin, listener)? {
-                    *part = None;
-                }
-            }
-        }
-        drop(parts);
+        fly((0..lanes).map(part).collect(), listener)?;
         self.starts.clear();
         self.spool.clear()
     }
 }
 
-/// One access of a part; false if it has none left.
-fn turn<S: TraceSink>(cursor: &mut Cursor, origin: &mut Origin, listener: &mut Listener<S>) -> io::Result<bool> {
+/// All lanes in turn, each a stretch of what waits, until none has anything left.
+pub(super) fn fly<S: LaneSink>(
+    mut lanes: Vec<Option<(Cursor<'_>, Origin)>>,
+    listener: &mut Listener<S>,
+) -> io::Result<()> {
+    while lanes.iter().any(Option::is_some) {
+        for (number, lane) in lanes.iter_mut().enumerate() {
+            let Some((cursor, origin)) = lane else { continue };
+            if !turn(number, cursor, origin, listener)? {
+                *lane = None;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// One access of a lane; false if it has none left.
+fn turn<S: LaneSink>(
+    lane: usize,
+    cursor: &mut Cursor,
+    origin: &mut Origin,
+    listener: &mut Listener<S>,
+) -> io::Result<bool> {
     while let Some(event) = cursor.next_event()? {
         match event {
             Event::Search { warm_up, destinations } => {
                 origin.warm_up = warm_up;
-                listener.at(*origin).search(&destinations);
+                listener.at(lane, *origin).search(&destinations);
             }
             Event::Access(access) => {
-                listener.at(*origin).access(access);
+                listener.at(lane, *origin).access(access);
                 return Ok(true);
             }
-            Event::SearchEnd => listener.sink.search_end(),
+            Event::SearchEnd => listener.at(lane, *origin).search_end(),
         }
     }
     Ok(false)

@@ -2,9 +2,9 @@
 
 use std::{collections::VecDeque, mem};
 
-use pm_formats::trace::{Access, TraceSink};
+use pm_formats::trace::Access;
 
-use super::{Listener, Origin};
+use super::{LaneSink, Listener, Origin};
 
 /// Searches in flight, and those that no lane has taken.
 pub(super) struct Stream {
@@ -49,15 +49,16 @@ impl Stream {
     }
 
     /// Turns of the lanes until one needs a search that has not come, or, at the end, until there is none left.
-    pub(super) fn fly<S: TraceSink>(&mut self, ended: bool, listener: &mut Listener<S>) {
+    pub(super) fn fly<S: LaneSink>(&mut self, ended: bool, listener: &mut Listener<S>) {
         let lanes = self.flying.len();
         let mut idle = 0;
         while idle < lanes {
-            let lane = &mut self.flying[self.turn];
+            let number = self.turn;
+            let lane = &mut self.flying[number];
             while lane.is_none() {
                 match self.queue.pop_front() {
                     Some(search) => {
-                        listener.at(search.origin).search(&search.destinations);
+                        listener.at(number, search.origin).search(&search.destinations);
                         if search.accesses.is_empty() {
                             listener.sink.search_end();
                         } else {
@@ -71,7 +72,7 @@ impl Stream {
             idle += 1;
             if let Some(search) = lane {
                 idle = 0;
-                listener.at(search.origin).access(search.accesses[search.next]);
+                listener.at(number, search.origin).access(search.accesses[search.next]);
                 search.next += 1;
                 if search.next == search.accesses.len() {
                     listener.sink.search_end();

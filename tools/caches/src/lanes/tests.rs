@@ -12,12 +12,18 @@ type Plain = (u64, bool, Vec<u32>, Vec<u64>);
 #[derive(Clone, Debug, PartialEq)]
 enum Heard {
     Search(Origin, Vec<u32>),
-    Access(Origin, u64),
+    Access(usize, Origin, u64),
     End,
 }
 
 #[derive(Default)]
-struct Ear(Origin, Vec<Heard>);
+struct Ear(Origin, Vec<Heard>, usize);
+
+impl LaneSink for Ear {
+    fn lane(&mut self, lane: usize) {
+        self.2 = lane;
+    }
+}
 
 impl TraceSink for Ear {
     fn block(&mut self, batch: u64, warm_up: bool) {
@@ -27,7 +33,7 @@ impl TraceSink for Ear {
         self.1.push(Heard::Search(self.0, destinations.to_vec()));
     }
     fn access(&mut self, access: Access) {
-        self.1.push(Heard::Access(self.0, access.offset));
+        self.1.push(Heard::Access(self.2, self.0, access.offset));
     }
     fn search_end(&mut self) {
         self.1.push(Heard::End);
@@ -46,25 +52,30 @@ fn heard(searches: &[Plain], lanes: u16, source: LaneSource) -> Vec<Heard> {
 }
 
 /// The naive model: all searches are there, a lane is a list of those it will have.
-fn model(searches: &[Plain], lanes: usize, source: LaneSource) -> Vec<(Origin, u64)> {
+fn model(searches: &[Plain], lanes: usize, source: LaneSource) -> Vec<(usize, Origin, u64)> {
     let batches: Vec<&[Plain]> = match source {
         LaneSource::Stream => vec![searches],
-        LaneSource::Parts => searches.chunk_by(|a, b| a.0 == b.0).collect(),
+        LaneSource::Parts | LaneSource::Batches => searches.chunk_by(|a, b| a.0 == b.0).collect(),
     };
     let mut order = vec![];
-    for batch in batches {
+    // Batches that fly together, each with the lane it is all of; or one, of all lanes.
+    let together = if source == LaneSource::Batches { lanes } else { 1 };
+    for batches in batches.chunks(together) {
         // Searches that no lane has, first to last; or those of each lane.
         let mut shared: VecDeque<Vec<(Origin, u64)>> = VecDeque::new();
         let mut own: Vec<VecDeque<Vec<(Origin, u64)>>> = vec![VecDeque::new(); lanes];
-        for (i, (batch_number, warm_up, _, accesses)) in batch.iter().enumerate() {
+        let numbered =
+            batches.iter().enumerate().flat_map(|(at, batch)| batch.iter().enumerate().map(move |it| (at, it)));
+        for (at, (i, (batch_number, warm_up, _, accesses))) in numbered {
             let origin = Origin { batch: *batch_number, warm_up: *warm_up };
             let accesses = accesses.iter().map(|&offset| (origin, offset)).collect();
             match source {
                 LaneSource::Stream => shared.push_back(accesses),
                 LaneSource::Parts => {
-                    let lane = (0..lanes).find(|lane| (lane + 1) * batch.len() / lanes > i).unwrap();
+                    let lane = (0..lanes).find(|lane| (lane + 1) * batches[0].len() / lanes > i).unwrap();
                     own[lane].push_back(accesses);
                 }
+                LaneSource::Batches => own[at].push_back(accesses),
             }
         }
         let mut at: Vec<VecDeque<(Origin, u64)>> = vec![VecDeque::new(); lanes];
@@ -75,7 +86,7 @@ fn model(searches: &[Plain], lanes: usize, source: LaneSource) -> Vec<(Origin, u
                     let Some(next) = own[lane].pop_front().or_else(|| shared.pop_front()) else { break };
                     at[lane] = next.into();
                 }
-                order.extend(at[lane].pop_front());
+                order.extend(at[lane].pop_front().map(|(origin, address)| (lane, origin, address)));
             }
             if order.len() == before {
                 break;
@@ -102,10 +113,10 @@ fn any_searches() -> impl Strategy<Value = Vec<Plain>> {
 proptest! {
     #[test]
     fn accesses_come_as_in_the_naive_model(searches in any_searches(), lanes in 1u16..9) {
-        for source in [LaneSource::Stream, LaneSource::Parts] {
+        for source in [LaneSource::Stream, LaneSource::Parts, LaneSource::Batches] {
             let heard = heard(&searches, lanes, source);
             let accesses: Vec<_> = heard.iter().filter_map(|event| match event {
-                Heard::Access(origin, address) => Some((*origin, *address)),
+                Heard::Access(lane, origin, address) => Some((*lane, *origin, *address)),
                 _ => None,
             }).collect();
             prop_assert_eq!(accesses, model(&searches, lanes.into(), source));
@@ -130,7 +141,7 @@ proptest! {
             accesses.iter().for_each(|&offset| plain.access(Access::read(0, offset, 20)));
             plain.search_end();
         }
-        for source in [LaneSource::Stream, LaneSource::Parts] {
+        for source in [LaneSource::Stream, LaneSource::Parts, LaneSource::Batches] {
             prop_assert_eq!(&heard(&searches, 1, source), &plain.1);
         }
     }

@@ -29,6 +29,30 @@ pub struct MissStream<W> {
 /// The most reads in a block, but for those of its last search; a block of more is written as several.
 const BLOCK_READS: usize = 1 << 20;
 
+/// A region whose records are lines.
+pub(crate) fn hold_lines(region: &mut Region, line_bytes: u32) {
+    if region.is_addresses() {
+        return;
+    }
+    region.coding = Coding::Records;
+    region.record_size = line_bytes;
+    if u64::from(line_bytes) <= REGION_ALIGNMENT {
+        region.size = region.size.next_multiple_of(line_bytes.into());
+    }
+}
+
+/// The read that fetches a line, or the write of one that leaves, cut to its region, one of such.
+pub(crate) fn access_of(regions: &[Region], line_bytes: u64, Moved { region, line, written }: Moved) -> Access {
+    let region_of = &regions[usize::from(region)];
+    let base = region_of.base;
+    let end = if region_of.is_addresses() { u64::MAX } else { base + (region_of.size - 1) };
+    let first = (line * line_bytes).max(base);
+    let last = (line * line_bytes + (line_bytes - 1)).min(end);
+    // A line of 2 GiB still fits.
+    let read = Access::read(region, first - base, (last - first + 1) as u32);
+    if written { Access { kind: AccessKind::Write, ..read } } else { read }
+}
+
 impl<W: Write> MissStream<W> {
     /// A stream of what `config` fetches of a trace with this header. `measures` are found besides. The header is that of
     /// the new stream but for its regions.
@@ -47,13 +71,7 @@ impl<W: Write> MissStream<W> {
         let mut simulation = Simulation::measuring(&header.regions, &[config], measures)?;
         simulation.keep_fetched();
         let line_bytes = u64::from(config.line_bytes());
-        for region in header.regions.iter_mut().filter(|region| !region.is_addresses()) {
-            region.coding = Coding::Records;
-            region.record_size = config.line_bytes();
-            if line_bytes <= REGION_ALIGNMENT {
-                region.size = region.size.next_multiple_of(line_bytes);
-            }
-        }
+        header.regions.iter_mut().for_each(|region| hold_lines(region, config.line_bytes()));
         Ok(Self {
             simulation,
             line_bytes,
@@ -63,18 +81,6 @@ impl<W: Write> MissStream<W> {
             fetched: vec![],
             searches: vec![],
         })
-    }
-
-    /// The read that fetches a line, or the write of one that leaves, cut to its region.
-    fn access_of(&self, Moved { region, line, written }: Moved) -> Access {
-        let region_of = &self.regions[usize::from(region)];
-        let base = region_of.base;
-        let end = if region_of.is_addresses() { u64::MAX } else { base + (region_of.size - 1) };
-        let first = (line * self.line_bytes).max(base);
-        let last = (line * self.line_bytes + (self.line_bytes - 1)).min(end);
-        // A line of 2 GiB still fits.
-        let read = Access::read(region, first - base, (last - first + 1) as u32);
-        if written { Access { kind: AccessKind::Write, ..read } } else { read }
     }
 
     /// Whether all went well so far: [`Simulation::check`].
@@ -98,7 +104,9 @@ impl<W: Write> MissStream<W> {
             let from = read;
             while let Some(&(destinations, reads)) = searches.next_if(|_| read - from < BLOCK_READS) {
                 encoder.begin(&self.destinations[destination..destinations]);
-                self.fetched[read..reads].iter().for_each(|&fetch| encoder.access(self.access_of(fetch)));
+                self.fetched[read..reads]
+                    .iter()
+                    .for_each(|&fetch| encoder.access(access_of(&self.regions, self.line_bytes, fetch)));
                 encoder.end();
                 (destination, read) = (destinations, reads);
             }

@@ -38,6 +38,9 @@ pub enum SimulationError {
     /// A cache of whose lines is not known when they leave.
     #[error("{0}: its policy does not tell when a line leaves; lru, fifo and the others of sets and ways do")]
     NoWriteBacks(CacheConfig),
+    /// A cache behind none.
+    #[error("{0}: without a cache there are no lines that one behind it could be asked for")]
+    NoLines(CacheConfig),
     /// A curve of lines that will not do.
     #[error(transparent)]
     Line(#[from] ConfigError),

@@ -26,7 +26,7 @@ pub(super) struct LineGroup {
     pub(super) shards: Option<Shards>,
     pub(super) working_sets: Option<WorkingSetCounter>,
     /// Region and line number of each fetch of the first of all caches, if somebody collects them.
-    pub(super) fetched: Option<Vec<Moved>>,
+    pub(super) fetched: Option<Fetched>,
     write_backs: bool,
 }
 
@@ -36,6 +36,24 @@ pub(crate) struct Moved {
     pub(crate) region: u16,
     pub(crate) line: u64,
     pub(crate) written: bool,
+}
+
+/// What the first of all caches fetched and wrote back, in order.
+#[derive(Default)]
+pub(super) struct Fetched {
+    pub(super) moves: Vec<Moved>,
+    /// The numbers of the accesses that did, if somebody wants to know that too.
+    pub(super) by: Option<Vec<u64>>,
+}
+
+impl Fetched {
+    /// One more, by the line access at this index.
+    fn push(&mut self, moved: Moved, chunk: &LineChunk, index: usize) {
+        self.moves.push(moved);
+        if let Some(by) = &mut self.by {
+            by.push(chunk.record(index));
+        }
+    }
 }
 
 /// A model, and the caches that it answers for.
@@ -104,8 +122,15 @@ impl LineGroup {
 
     /// From now on, what the first of all caches fetches is kept.
     pub(super) fn keep_fetched(&mut self) {
-        self.fetched = Some(vec![]);
+        self.fetched = Some(Fetched::default());
         self.misses = Misses::new(true);
+    }
+
+    /// The same, and by which access.
+    pub(super) fn keep_fetched_by(&mut self) {
+        self.keep_fetched();
+        self.chunk = std::mem::take(&mut self.chunk).numbered(true);
+        self.fetched = Some(Fetched { by: Some(vec![]), ..Fetched::default() });
     }
 
     /// Simulates accesses, among which searches begin at `starts`; what they wait for, if somebody wants to know.
@@ -222,7 +247,7 @@ fn follow(
     chunk: &LineChunk,
     misses: &Misses,
     caches: &mut [CacheOfModel],
-    mut fetched: Option<&mut Vec<Moved>>,
+    mut fetched: Option<&mut Fetched>,
     (counted, write_backs): (bool, bool),
 ) {
     let line_bytes = u64::from(space.line_bytes());
@@ -253,9 +278,9 @@ fn follow(
             // A line leaves before another takes its place.
             while let Some(back) = written_back.next_if(|back| back.index == miss.index) {
                 let line = space.line(back.region.into(), back.slot);
-                fetched.push(Moved { region: back.region, line, written: true });
+                fetched.push(Moved { region: back.region, line, written: true }, chunk, miss.index as usize);
             }
-            fetched.push(Moved { region: region as u16, line, written: false });
+            fetched.push(Moved { region: region as u16, line, written: false }, chunk, miss.index as usize);
         }
     }
 }

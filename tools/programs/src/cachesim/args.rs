@@ -86,21 +86,34 @@ pub struct Args {
     #[arg(long, value_name = "BYTES", default_value = "12", hide_short_help = true,
         value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub(super) pixel: u32,
-    /// Searches in flight at a time, accesses one of each in turn; a list: a row for each number
+    /// Searches in flight at a time over one cache, accesses one of each in turn; a list: a row for each number
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) lanes: Vec<u16>,
-    /// Which searches fly together: the next of the stream, or one of each of as many parts of a batch
+    /// Which searches fly together: the next of the stream, one of each of as many parts of a batch, or of as many batches
     #[arg(long, value_name = "HOW", default_value = "stream", requires = "lanes", hide_short_help = true, value_parser = choice::<LaneSource>())]
     pub(super) lanes_from: LaneSource,
+    /// So many processing elements, each with caches of its own; a list: a row for each number
+    ///
+    /// Fetches are those of all private caches together. With --lanes as many searches share one cache; here none of them sees what
+    /// another's cache holds, and a line that several want is fetched by each.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..=4096), hide_short_help = true,
+        conflicts_with_all = ["curve", "shards", "misses", "lanes", "dram", "dinero", "miss_chain"])]
+    pub(super) private: Vec<u16>,
+    /// How searches are shared out: the next one of the stream to whoever is free, a stretch of each batch to each, or a batch to each
+    #[arg(long, value_name = "HOW", default_value = "stream", requires = "private", hide_short_help = true, value_parser = choice::<LaneSource>())]
+    pub(super) private_from: LaneSource,
+    /// A cache that all share behind their own, which is then the one --cache; columns for what it fetches
+    #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", requires = "private", hide_short_help = true)]
+    pub(super) shared: Option<CacheConfig>,
     /// Count the windows of one part of a trace of windows, and write what --add adds to that of the others, instead of a table
     ///
     /// A window begins with empty caches, so what is counted of it is the same wherever that is. Without windows caches go on from
     /// part to part: then all parts have to be given.
-    #[arg(long, conflicts_with_all = ["format", "misses", "curve", "shards", "lanes", "dram", "dinero", "miss_chain", "add"], hide_short_help = true)]
+    #[arg(long, conflicts_with_all = ["format", "misses", "curve", "shards", "lanes", "dram", "dinero", "miss_chain", "private", "add"], hide_short_help = true)]
     pub(super) counts: bool,
     /// The inputs are what --counts wrote of all parts: the table of the whole
     #[arg(long, conflicts_with_all = ["cache", "sizes", "lines", "ways", "policies", "misses", "curve", "shards", "lanes", "dram",
-        "dinero", "miss_chain", "span", "page", "result_cache", "pixel", "columns"], hide_short_help = true)]
+        "dinero", "miss_chain", "private", "span", "page", "result_cache", "pixel", "columns"], hide_short_help = true)]
     pub(super) add: bool,
     #[command(flatten)]
     pub(super) foreign: ForeignArgs,

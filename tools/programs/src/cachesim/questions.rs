@@ -94,6 +94,11 @@ fn lines_of(regions: &[Region], line: u64) -> u64 {
 
 /// What to find out besides the caches' own counts: what the format shows.
 fn measures(args: &Args) -> anyhow::Result<Measures> {
+    if args.shared.is_some() && caches(args, &[])?.len() != 1 {
+        return Err(usage(
+            "--shared lies behind one cache of each element: name one, such as --cache 16K,full,128,lru",
+        ));
+    }
     if !args.page.0.is_power_of_two() {
         return Err(usage(format!("--page {}: a power of two is expected, such as 8K", args.page)));
     }

@@ -6,7 +6,7 @@ use super::results::{Results, Source};
 use super::{Args, windowed};
 use crate::cli::{Progress, named, open_bytes, room_for, usage};
 use anyhow::Context as _;
-use pm_caches::{Lanes, Measures, Simulation};
+use pm_caches::{LaneSink, Lanes, Measures, PrivateCaches, Simulation};
 use pm_exchange::traces::{self, Opened, Trace, TraceImport};
 use pm_formats::trace::{Access, Coding, Region, TraceReader, TraceSink};
 use pm_registry::Registry;
@@ -53,7 +53,7 @@ fn simulate(
             simulate_ours(args, path, Replay::One(Box::new(trace)), questions, results).context(name)
         }
         Opened::Foreign(mut trace) => {
-            if args.lanes.iter().any(|&lanes| lanes > 1) {
+            if args.lanes.iter().any(|&lanes| lanes > 1) || !args.private.is_empty() {
                 return Err(usage(format!("{name}: {NO_SEARCHES}")));
             }
             check_waits(args, trace.regions()).context(name.clone())?;
@@ -70,7 +70,7 @@ fn simulate(
 }
 
 /// What is said where searches are to fly together and there are none.
-const NO_SEARCHES: &str = "a foreign trace has no searches for --lanes to let fly together";
+const NO_SEARCHES: &str = "a foreign trace has no searches for --lanes or --private to share out";
 
 /// Refuses to look for chains where no read says what it waits for.
 fn check_waits(args: &Args, regions: &[Region]) -> anyhow::Result<()> {
@@ -114,7 +114,7 @@ fn simulate_ours<R: Read>(
     let of_addresses = regions.iter().any(Region::is_addresses);
     room_for_lines(&regions, questions)?;
     check_waits(args, &regions)?;
-    if of_addresses && args.lanes.iter().any(|&lanes| lanes > 1) {
+    if of_addresses && (args.lanes.iter().any(|&lanes| lanes > 1) || !args.private.is_empty()) {
         return Err(usage(NO_SEARCHES));
     }
     let measures = if of_addresses { questions.measures_of_addresses() } else { measures };
@@ -124,6 +124,19 @@ fn simulate_ours<R: Read>(
         replay(args, &mut trace, &mut windows)?;
         let rows = windows.finish(Some(sample.windows), sample.share);
         results.add_windows(&Source::ours(path, trace.header(), &trace.end()?), rows);
+        return Ok(());
+    }
+    if !args.private.is_empty() {
+        let private = |&elements: &u16| -> anyhow::Result<_> {
+            let caches = PrivateCaches::new(&regions, configs, &measures, elements, args.shared)?;
+            Lanes::new(caches, elements, args.private_from).context("temporary file")
+        };
+        let mut together = Together(args.private.iter().map(private).collect::<anyhow::Result<_>>()?);
+        replay(args, &mut trace, &mut together)?;
+        let source = Source::ours(path, trace.header(), &trace.end()?);
+        for caches in together.0 {
+            results.add(args, &source, 1, caches.finish().context("temporary file")?.findings())?;
+        }
         return Ok(());
     }
     if args.lanes.is_empty() || of_addresses {
@@ -167,10 +180,10 @@ pub(super) fn replay<R: Read>(args: &Args, trace: &mut Replay<R>, sink: &mut imp
     Ok(())
 }
 
-/// The same trace through several numbers of lanes.
-struct Together(Vec<Lanes<Simulation>>);
+/// The same trace through several numbers of lanes, or of elements.
+struct Together<S>(Vec<Lanes<S>>);
 
-impl TraceSink for Together {
+impl<S: LaneSink> TraceSink for Together<S> {
     fn block(&mut self, batch: u64, warm_up: bool) {
         self.0.iter_mut().for_each(|sink| sink.block(batch, warm_up));
     }

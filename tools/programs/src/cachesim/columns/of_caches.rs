@@ -3,7 +3,7 @@
 use super::super::cache_result::{CacheResult, SetsOf, column_name};
 use super::totals::{BYTES, FETCHES, NONE};
 use super::{Columns, perhaps};
-use pm_caches::{CacheCounts, Distribution};
+use pm_caches::{CacheCounts, Distribution, PrivateCounts};
 use pm_report::{Format, Table, Value};
 use std::collections::BTreeSet;
 
@@ -36,6 +36,7 @@ pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Ta
         .dinero(results)
         .dram(results)
         .miss_chains(results)
+        .private(results)
         .working_sets()
         .other_traffic()
         .windows(windowed);
@@ -122,6 +123,33 @@ impl Columns<CacheResult> {
             true,
             move |of| perhaps(of_chains(of).and_then(|it| it.max()).map(u64::from)),
         )
+    }
+
+    /// Private caches and what they share, if there are several.
+    fn private(self, results: &[CacheResult]) -> Self {
+        let private = |of: &CacheResult| of.counts().and_then(|counts| counts.more.private.as_deref().cloned());
+        if !results.iter().any(|of| private(of).is_some()) {
+            return self;
+        }
+        let ratio =
+            move |of: &CacheResult, ratio: fn(&PrivateCounts) -> f64| private(of).map_or(f64::NAN, |it| ratio(&it));
+        let columns = self
+            .number("private", true, move |of| perhaps(private(of).map(|it| it.elements)))
+            .number("lines_shared", true, move |of| perhaps(private(of).map(|it| it.lines_shared)))
+            .ratio("access_imbalance", true, move |of| ratio(of, PrivateCounts::access_imbalance))
+            .ratio("fetch_imbalance", true, move |of| ratio(of, PrivateCounts::fetch_imbalance));
+        let shared = move |of: &CacheResult| private(of).and_then(|it| it.shared);
+        if !results.iter().any(|of| shared(of).is_some()) {
+            return columns;
+        }
+        columns
+            .text("shared_cache", false, move |of| shared(of).map_or(String::new(), |it| it.config.to_string()))
+            .number("shared_fetches", true, move |of| perhaps(shared(of).map(|it| it.fetches)))
+            .number("shared_bytes_fetched", false, move |of| perhaps(shared(of).map(|it| it.bytes_fetched)))
+            .ratio("shared_fetches_per_query", true, move |of| match (shared(of), of.counts()) {
+                (Some(shared), Some(counts)) => shared.fetches as f64 / counts.queries as f64,
+                _ => f64::NAN,
+            })
     }
 
     /// Distinct lines of searches and of batches.
