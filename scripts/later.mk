@@ -8,6 +8,7 @@ LATER += curves
 LATER += latency
 LATER += private
 LATER += software
+LATER += specular
 LATER += atlas
 LATER += held-orders
 

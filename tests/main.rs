@@ -37,6 +37,7 @@ mod same_scene;
 mod scenes;
 mod situations;
 mod slopes;
+mod specular;
 mod streams;
 mod support;
 mod sweep;

@@ -14,6 +14,10 @@ pub const GATHERS: &str = "gathers";
 pub const IRRADIANCE_CACHE: &str = "irradiance cache";
 /// How gather rays are spread, where that is not the usual: a word.
 pub const SAMPLING: &str = "sampling";
+/// What gather rays do at mirrors and glass, where they do not go on: a word.
+pub const AT_SPECULAR: &str = "at specular";
+/// Queries that wait for the end of their batch: which, in words.
+pub const QUEUED: &str = "queued";
 /// The photons that guide the gather rays: number and digest.
 pub const GUIDE: &str = "guide";
 /// Which photons they are, where they are not all: a word.

@@ -43,7 +43,7 @@ mod surface;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
 pub use cache_records::{CacheOptions, CacheRecords};
-pub use gather_options::{GatherOptions, Method};
+pub use gather_options::{AtSpecular, GatherOptions, Method};
 pub use gather_rays::GatherRays;
 pub use photon_paths::{PathPhoton, PhotonPaths, photon_rounding};
 pub use pixel_caster::PixelCaster;

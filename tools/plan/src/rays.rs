@@ -3,7 +3,7 @@
 use crate::replicates::Values;
 use pm_formats::Query;
 use pm_light::scene::{Camera, Scene};
-use pm_light::transport::{GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
+use pm_light::transport::{AtSpecular, GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
 use pm_orders::VisiblePoints;
 
 /// What the rays of some pixels found.
@@ -37,6 +37,8 @@ impl Design {
             seed,
             direct: true,
             strata: Strata::Raster,
+            at_specular: AtSpecular::GoOn,
+            queue_specular: false,
             caustics: !caustics_apart,
         }
     }

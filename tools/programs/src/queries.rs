@@ -16,11 +16,11 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, CommandFactory, FromArgMatches};
 use guide::GuidePhotons;
 use pm_formats::vocabulary::{meaning, measure};
-use pm_formats::{Header, Number, RecordWriter, StageReport};
+use pm_formats::{BlockMeta, Header, Number, RecordWriter, StageReport};
 use pm_light::scene::Scene;
-use pm_light::transport::{CacheOptions, CacheRecords, GatherRays, RayCounts};
+use pm_light::transport::{AtSpecular, CacheOptions, CacheRecords, GatherRays, RayCounts};
 use pm_orders::{Generative, GenerativeOrder};
-use pm_registry::{Chosen, Registry};
+use pm_registry::{Choice as _, Chosen, Registry};
 use sample::Sample;
 
 /// What was asked: options, and an order in which the pixels are visited.
@@ -103,13 +103,23 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
         gathers_a_pixel,
         exposure,
     };
+    // Queries that come last in their batch, and what the batch is.
+    let mut queue = (BlockMeta::default(), vec![]);
     casting.run(threads, |cast, job| {
+        if queue.0.batch != job.meta.batch && !queue.1.is_empty() {
+            output.write(queue.0, &std::mem::take(&mut queue.1))?;
+        }
         output.write(job.meta, &cast.queries)?;
+        queue.0 = job.meta;
+        queue.1.extend(cast.queued);
         base.as_mut().map_or(Ok(()), |base| base.add(cast.light))?;
         counts += cast.counts;
         progress.add(job.size());
         Ok(())
     })?;
+    if !queue.1.is_empty() {
+        output.write(queue.0, &queue.1)?;
+    }
     drop(progress);
 
     // Other parts may see some.
@@ -138,6 +148,12 @@ fn header(args: &Args, scene: &Scene, size: [u32; 2], order: &dyn Generative) ->
     }
     if args.samples > 1 {
         header.set_meaning(meaning::SAMPLES, args.samples);
+    }
+    if args.at_specular != AtSpecular::GoOn {
+        header.set_meaning(meaning::AT_SPECULAR, args.at_specular.word());
+    }
+    if args.queue_specular {
+        header.set_meaning(meaning::QUEUED, "gather rays behind mirrors and glass, to the end of each batch");
     }
     if let Some(part) = args.part {
         header.set_meaning(meaning::PART, part);

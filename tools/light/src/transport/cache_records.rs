@@ -130,13 +130,14 @@ impl CacheRecords {
         }
     }
 
-    /// Casts gather rays of a record, those of the strata given, and gives its queries to `query`.
+    /// Casts gather rays of a record, those of the strata given, and gives its queries to `query`, each with whether its ray
+    /// went by a mirror or through glass.
     pub fn gather(
         &self,
         rays: &GatherRays<'_>,
         id: u32,
         strata: &[u32],
-        mut query: impl FnMut(Query),
+        mut query: impl FnMut(Query, bool),
         counts: &mut RayCounts,
     ) {
         let of_record = RecordRays { rays, point: &self.origins[id as usize].point, id };
@@ -145,7 +146,7 @@ impl CacheRecords {
             match of_record.cast(stratum, &mut |_| {}, counts) {
                 Some(end) => {
                     let at = query_at(&end.point, end.view, id, stratum, end.weight);
-                    query(Query { flags: Query::FOR_RECORD, ..at });
+                    query(Query { flags: Query::FOR_RECORD, ..at }, end.behind_specular);
                 }
                 None => counts.gather_lost += 1,
             }

@@ -26,6 +26,24 @@ pub struct GatherOptions {
     pub strata: Strata,
     /// Does light count that comes to a point seen from a lamp through mirrors and glass? Not where a caustic map holds it.
     pub caustics: bool,
+    /// What becomes of a gather ray at a mirror or glass.
+    pub at_specular: AtSpecular,
+    /// Do queries of gather rays that went by a mirror or through glass wait ([`PixelCaster::take_queued`](super::PixelCaster::take_queued))?
+    pub queue_specular: bool,
+}
+
+pm_registry::choices! {
+    /// What becomes of a gather ray at a mirror or glass.
+    #[derive(Debug, Default)]
+    pub enum AtSpecular {
+        /// It goes on, reflected or refracted, to a surface that spreads light
+        #[default]
+        GoOn = "go-on",
+        /// It is lost, and the picture lacks what it would have brought
+        Stop = "stop",
+        /// It asks there for what the surface spreads: nothing, if it is all mirror or glass
+        Gather = "gather",
+    }
 }
 
 /// What is asked of the photon map.

@@ -2,7 +2,7 @@
 //! is too short.
 
 use super::direct::{Techniques, direct_light};
-use super::gather_options::GatherOptions;
+use super::gather_options::{AtSpecular, GatherOptions};
 use super::lights::Lights;
 use super::ray_counts::RayCounts;
 use super::reflection::{Reflection, Spread};
@@ -27,6 +27,8 @@ pub(super) struct End {
     pub(super) view: Vec3,
     /// What is left of the ray's weight.
     pub(super) weight: Vec3,
+    /// Did it go by a mirror or through glass?
+    pub(super) behind_specular: bool,
     /// Length of the ray, its reflections and refractions included.
     length: f32,
 }
@@ -87,7 +89,8 @@ impl<'a> GatherPaths<'a> {
         let (u, v) = (random.unit(), random.unit());
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         let lamps = Lamps { direct: techniques, behind_specular: true };
-        self.follow(&end.point, direction, end.weight * weight, lamps, light, random)
+        let further = self.follow(&end.point, direction, end.weight * weight, lamps, light, random)?;
+        Some(End { behind_specular: end.behind_specular || further.behind_specular, ..further })
     }
 
     /// Follows a gather ray through mirrors and glass to the surface where it ends, one that spreads light.
@@ -118,13 +121,26 @@ impl<'a> GatherPaths<'a> {
             let spread = diffuse.max_element() + lobe.max_element();
             let ways = specular(material, &point, direction);
             let specular_share: f32 = ways.iter().flatten().map(|way| way.share.max_element()).sum();
+            let behind_specular = hits > 0;
+            if self.options.at_specular == AtSpecular::Gather && specular_share > 0.0 {
+                return Some(End { point, view: -direction, weight, behind_specular, length });
+            }
             // A surface that is both is one or the other for this ray.
             let total = spread + specular_share;
             if total <= 0.0 {
                 return None;
             }
             if random.unit() * total < spread {
-                return Some(End { point, view: -direction, weight: weight * (total / spread), length });
+                return Some(End {
+                    point,
+                    view: -direction,
+                    weight: weight * (total / spread),
+                    behind_specular,
+                    length,
+                });
+            }
+            if self.options.at_specular == AtSpecular::Stop {
+                return None;
             }
             let (way, chosen) = choose(ways, random)?;
             let patient = patience(hits, random)?;

@@ -132,13 +132,14 @@ impl<'a> GatherRays<'a> {
         strata.into()
     }
 
-    /// Casts the gather rays of one point seen that go through these strata.
+    /// Casts the gather rays of one point seen that go through these strata, and tells of each query whether its ray went by a
+    /// mirror or through glass.
     pub(super) fn gather(
         &self,
         pixel: u32,
         visible: &VisiblePoint,
         strata: &[u32],
-        query: &mut impl FnMut(Query),
+        query: &mut impl FnMut(Query, bool),
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
@@ -165,7 +166,7 @@ impl<'a> GatherRays<'a> {
                 self.paths.cast(point, (direction, techniques), weight, &mut random, light, counts)
             });
             match end {
-                Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight)),
+                Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight), end.behind_specular),
                 None => counts.gather_lost += 1,
             }
         }

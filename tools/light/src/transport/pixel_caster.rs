@@ -19,6 +19,8 @@ pub struct PixelCaster<'a> {
     cache: Option<&'a CacheRecords>,
     /// By pixel: the points seen, and the number of eye rays that found them.
     seen: HashMap<u32, (Vec<VisiblePoint>, u64)>,
+    /// Queries that wait for the end of their batch.
+    queued: Vec<Query>,
 }
 
 /// What of a pixel is cast at a visit: a pass, and of its rays those with these numbers.
@@ -41,7 +43,13 @@ impl<'a> PixelCaster<'a> {
     /// were placed at a pixel are.
     #[must_use]
     pub fn new(rays: &'a GatherRays<'a>, cache: Option<&'a CacheRecords>) -> Self {
-        Self { rays, cache, seen: HashMap::new() }
+        Self { rays, cache, seen: HashMap::new(), queued: vec![] }
+    }
+
+    /// The queries since the last time that are to wait, in order: of gather rays that went by a mirror or through glass, if
+    /// they are [queued](super::GatherOptions::queue_specular).
+    pub fn take_queued(&mut self) -> Vec<Query> {
+        std::mem::take(&mut self.queued)
     }
 
     /// Casts the rays of one pixel: gives its queries to `query`, strata in raster order (elevation outer, azimuth inner),
@@ -89,7 +97,12 @@ impl<'a> PixelCaster<'a> {
         mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let Self { rays: cast, seen, .. } = self;
+        let Self { rays: cast, seen, queued, .. } = self;
+        let queues = cast.options.queue_specular;
+        let mut query = |one: Query, behind_specular: bool| match queues && behind_specular {
+            true => queued.push(one),
+            false => query(one),
+        };
         let pixel = y * cast.size()[0] + x;
         let Wanted { pass: Pass { points, bin }, rays } = wanted;
         // Light seen by eye belongs to the first of the passes that visit every pixel.
@@ -124,7 +137,8 @@ impl<'a> PixelCaster<'a> {
                 }
                 Method::DirectVisualisation => {
                     if bin == 0 && !take(rays, 1).is_empty() {
-                        query(query_at(&visible.point, visible.view, pixel, visible.number, visible.share));
+                        // Eye rays wait by their pass.
+                        query(query_at(&visible.point, visible.view, pixel, visible.number, visible.share), false);
                     }
                 }
             }

@@ -1,6 +1,7 @@
 //! Do rays hit what they should, and is light neither lost nor made?
 
 mod aimed;
+mod at_specular;
 mod direct;
 mod eye;
 mod glossy;

@@ -6,7 +6,7 @@ use crate::setting::{CameraArgs, SceneArgs};
 use clap::Parser;
 use pm_formats::vocabulary::Part;
 use pm_light::scene::Bounds;
-use pm_light::transport::{GatherOptions, Method, Spread, Strata};
+use pm_light::transport::{AtSpecular, GatherOptions, Method, Spread, Strata};
 use std::path::PathBuf;
 
 /// Cast eye rays and final-gather rays; write a gather query wherever one ends on a diffuse surface.
@@ -41,6 +41,12 @@ pub(super) struct Args {
     /// `pm-queries --direct-visualisation`: a gather ray that meets a lamp in a mirror or through glass does not count
     #[arg(long, hide_short_help = true)]
     no_caustics: bool,
+    /// What a gather ray does at a mirror or glass
+    #[arg(long, default_value = "go-on", hide_short_help = true, value_parser = choice::<AtSpecular>())]
+    pub(super) at_specular: AtSpecular,
+    /// Queries of gather rays that went by a mirror or through glass come last in their batch, after those of eye rays that did
+    #[arg(long, hide_short_help = true, conflicts_with_all = ["window", "direct_visualisation"])]
+    pub(super) queue_specular: bool,
     /// In which order the gather rays of a point are cast
     #[arg(long, default_value = "raster", hide_short_help = true, value_parser = choice::<Strata>())]
     strata: Strata,
@@ -126,6 +132,15 @@ impl Args {
         if u64::from(self.samples) * u64::from(self.gathers) > MOST_GATHERS {
             return Err(cli::usage(format!("--samples times --gathers is more than {MOST_GATHERS}")));
         }
+        if self.at_specular != AtSpecular::GoOn && self.direct_visualisation {
+            return Err(cli::usage(
+                "--at-specular: --direct-visualisation casts no gather rays: leave out one of them",
+            ));
+        }
+        if self.at_specular != AtSpecular::GoOn && self.queue_specular {
+            let all = "no gather ray goes on behind a mirror or glass that could wait: leave out one of them";
+            return Err(cli::usage(format!("--queue-specular, --at-specular: {all}")));
+        }
         let Some(conflict) = self.guide.as_ref().and_then(|_| self.guide_conflict()) else { return Ok(()) };
         Err(cli::usage(conflict))
     }
@@ -169,6 +184,8 @@ impl Args {
             // Records carry the light that their rays meet, picture or not.
             direct: self.base.is_some() || self.irradiance_cache.is_some(),
             strata: self.strata,
+            at_specular: self.at_specular,
+            queue_specular: self.queue_specular,
         }
     }
 }

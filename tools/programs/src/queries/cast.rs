@@ -34,6 +34,8 @@ pub(super) struct Casting<'a> {
 /// The queries and the light of a job.
 pub(super) struct Cast {
     pub(super) queries: Vec<Query>,
+    /// Those that wait for the end of the batch.
+    pub(super) queued: Vec<Query>,
     /// By pixel, in units of the film.
     pub(super) light: Vec<(u32, [i128; 3])>,
     pub(super) counts: RayCounts,
@@ -72,7 +74,7 @@ impl Casting<'_> {
     }
 
     fn cast(&self, caster: &mut PixelCaster<'_>, Job { span, rays: some, .. }: &Job) -> Result<Cast, Overflow> {
-        let mut cast = Cast { queries: vec![], light: vec![], counts: RayCounts::default() };
+        let mut cast = Cast { queries: vec![], queued: vec![], light: vec![], counts: RayCounts::default() };
         let mut too_bright = None;
         let mut left = some.clone();
         for x in span.columns.clone() {
@@ -91,6 +93,7 @@ impl Casting<'_> {
                 Some(left) => caster.some_of_pixel(at, span.pass, left, query, &mut cast.counts),
             }
         }
+        cast.queued = caster.take_queued();
         too_bright.map_or(Ok(cast), Err)
     }
 }

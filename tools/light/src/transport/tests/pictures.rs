@@ -1,6 +1,6 @@
 //! The queries and the light of a small picture.
 
-use super::super::{GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
+use super::super::{AtSpecular, GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
 use crate::scene::{Camera, CameraOverrides, FileSystem, Scene};
 use glam::Vec3;
 use pm_orders::VisiblePoints;
@@ -27,6 +27,8 @@ pub(in crate::transport) const OPTIONS: GatherOptions = GatherOptions {
     seed: 9,
     direct: true,
     strata: Strata::Raster,
+    at_specular: AtSpecular::GoOn,
+    queue_specular: false,
     caustics: true,
 };
 
