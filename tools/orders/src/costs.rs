@@ -7,8 +7,8 @@ use super::{Store, StoredQuery};
 use pm_formats::Number;
 use pm_formats::vocabulary::measure;
 
-/// Rays that give a query back from its compact record: an eye ray and a gather ray, each with its reflections.
-const RAYS_OF_A_COMPACT_RECORD: u64 = 2;
+/// Rays that give a query back, as from its compact record: an eye ray and a gather ray, each with its reflections.
+const RAYS_OF_A_QUERY: u64 = 2;
 
 /// What is told of an order in the end block.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub struct Costs {
     tables: u64,
     written: u64,
     read: u64,
+    /// Rays cast again for queries that were not answered when they were cast.
+    again: u64,
     more: Vec<(String, Number)>,
 }
 
@@ -42,6 +44,7 @@ impl Costs {
             tables: 0,
             written: 0,
             read: 0,
+            again: 0,
             more: vec![],
         }
     }
@@ -103,6 +106,16 @@ impl Costs {
         self.on_chip = self.on_chip.max(on_chip);
     }
 
+    /// `n` queries of a group did not wait: they were answered as they were cast.
+    pub const fn answered_at_once(&mut self, n: u64) {
+        self.deferred -= n;
+    }
+
+    /// So many queries were cast once more, since nothing was kept of them.
+    pub const fn cast_again(&mut self, queries: u64) {
+        self.again += queries * RAYS_OF_A_QUERY;
+    }
+
     /// The measures, in the order in which they are shown.
     #[must_use]
     pub fn measures(&self) -> Vec<(String, Number)> {
@@ -118,9 +131,10 @@ impl Costs {
         ]
         .map(|(name, number)| (name.to_owned(), number))
         .into();
-        if self.store.record == StoredQuery::Compact {
-            measures
-                .push((measure::RAYS_CAST_AGAIN.to_owned(), Number::Count(self.deferred * RAYS_OF_A_COMPACT_RECORD)));
+        let compact = self.store.record == StoredQuery::Compact;
+        let again = self.again + if compact { self.deferred * RAYS_OF_A_QUERY } else { 0 };
+        if compact || again > 0 {
+            measures.push((measure::RAYS_CAST_AGAIN.to_owned(), Number::Count(again)));
         }
         measures.extend(self.more.iter().cloned());
         measures

@@ -5,6 +5,7 @@ mod cells;
 mod hashed;
 mod hilbert;
 mod hint;
+mod hybrid;
 mod leaf;
 mod morton;
 mod parameters;
@@ -29,6 +30,7 @@ pub fn orders() -> Registry<dyn Order> {
             &hint::Hint,
             &partition::Partition,
             &cells::Cells,
+            &hybrid::Hybrid,
             &snowplow::Snowplow,
             &buffered::Buffered,
         ],

@@ -4,6 +4,7 @@
 //! is a [`Reorder`], and [`Reordering`] applies that to a stream. A generative order is a file in `generative` that implements
 //! [`GenerativeOrder`], and a line in [`generative_orders`]. [`trial`] holds what every order must pass.
 
+mod arrivals;
 mod charge;
 mod costs;
 mod deferred;
@@ -14,6 +15,7 @@ mod partitions;
 mod reorder;
 mod reordering;
 mod runs;
+mod sample;
 mod sorted;
 mod store;
 pub mod trial;

@@ -3,29 +3,18 @@
 //! Sample sort (Frazer and McKellar, *Samplesort*, JACM 17(3), 1970) along a curve through the scene: a partition is an
 //! interval of keys, and the intervals' ends come from a sample of the queries that is cast before the picture.
 
+use super::sample::{RAYS_OF_A_SAMPLE, Sample};
 use super::{BURST_BUFFER, Costs, Store};
 use pm_formats::vocabulary::measure;
 use pm_formats::{Number, Query};
-use pm_random::Random;
-use std::collections::BinaryHeap;
 
-/// One of so many queries is in the sample.
-const ONE_OF: u64 = 64;
-/// Most queries of a sample.
-const MOST_SAMPLED: usize = 1 << 18;
-/// The sample of a small picture is not smaller than this, if there are so many queries.
-const LEAST_SAMPLED: usize = 1 << 12;
-/// Rays for each query of the sample: an eye ray and a gather ray.
-const RAYS_OF_A_SAMPLE: u64 = 2;
 /// Standard deviations by which a partition may exceed what the sample foretells before it overflows.
 const MARGIN: f64 = 3.0;
 
 /// The partitions of one batch or image after the other, and what they cost.
 #[derive(Default)]
 pub struct Partitions {
-    /// The sample: queries of the least hashes, with their keys.
-    sample: BinaryHeap<(u64, u32)>,
-    seen: u64,
+    sample: Sample,
     parts: Vec<Part>,
     /// The partition that queries leave from now.
     now: usize,
@@ -59,23 +48,13 @@ impl Partitions {
 
     /// A query has come: it may belong to the sample, which does not depend on when.
     pub(super) fn sample(&mut self, query: &Query, key: u32) {
-        self.seen += 1;
-        let identity = [u64::from(query.flags), u64::from(query.pixel), u64::from(query.sample)];
-        let hash = Random::new(&identity).next_u64();
-        let most = usize::try_from(self.seen / ONE_OF).unwrap_or(MOST_SAMPLED).clamp(LEAST_SAMPLED, MOST_SAMPLED);
-        if self.sample.len() < most || self.sample.peek().is_some_and(|&(greatest, _)| hash < greatest) {
-            self.sample.push((hash, key));
-            if self.sample.len() > most {
-                self.sample.pop();
-            }
-        }
+        self.sample.see(query, key);
     }
 
     /// All `n` have come: where the partitions end.
     pub(super) fn decide(&mut self, n: u64, store: Store) {
-        let mut keys: Vec<u32> = std::mem::take(&mut self.sample).into_iter().map(|(_, key)| key).collect();
+        let mut keys = self.sample.take();
         keys.sort_unstable();
-        self.seen = 0;
         self.now = 0;
         self.parts.clear();
         self.parts.push(Part::from(0));

@@ -21,7 +21,7 @@ const BYTES_A_QUERY: u64 = (size_of::<Query>() + KEY_BYTES) as u64;
 const KEY_BYTES: usize = size_of::<u32>() + size_of::<u64>();
 
 /// The system has less memory than [`Limits`] allow.
-fn no_memory() -> pm_formats::Error {
+pub(super) fn no_memory() -> pm_formats::Error {
     let text = "not enough memory to sort all queries in; with less --memory they are sorted in temporary files";
     std::io::Error::new(std::io::ErrorKind::OutOfMemory, text).into()
 }

@@ -4,6 +4,7 @@ use super::*;
 use crate::StoredQuery;
 use bytemuck::Zeroable as _;
 use pm_formats::vocabulary::measure;
+use pm_random::Random;
 
 fn run(keys: &[u32], bytes: u64) -> Costs {
     let mut costs = Costs::new(Store { bytes, record: StoredQuery::Full });
