@@ -1,5 +1,7 @@
 //! The deferred orders: a file each, and a line here.
 
+#[cfg(test)]
+mod as_charged;
 mod buffered;
 mod cells;
 mod hashed;

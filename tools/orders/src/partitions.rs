@@ -75,6 +75,12 @@ impl Partitions {
         }
     }
 
+    /// The first key of each partition.
+    #[cfg(test)]
+    pub(super) fn firsts(&self) -> Vec<u32> {
+        self.parts.iter().map(|part| part.first).collect()
+    }
+
     /// A query leaves, in the order of keys.
     pub(super) fn count(&mut self, key: u32) {
         while self.parts.get(self.now + 1).is_some_and(|next| next.first <= key) {

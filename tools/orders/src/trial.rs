@@ -12,6 +12,8 @@ mod passing;
 mod verdict;
 
 pub use inputs::queries;
+#[cfg(test)]
+pub(crate) use passing::photons;
 pub use passing::{Form, Passed, forms};
 pub use verdict::{Fault, STORAGE, STORE, Verdict};
 

@@ -67,7 +67,7 @@ impl Order for Hint {
 const WHOLE: u32 = 30;
 
 /// Computes the keys of queries, of so many bits.
-fn keys(of: Key, bits: u32, bounds: Bounds) -> Keys {
+pub(super) fn keys(of: Key, bits: u32, bounds: Bounds) -> Keys {
     let whole: Keys = match of {
         Key::Position => Box::new(hilbert::keys(bounds)),
         Key::Direction => Box::new(|queries| queries.iter().map(|query| cell_of_sphere(query.view)).collect()),

@@ -17,11 +17,12 @@
 mod join;
 mod residents;
 
+pub(super) use residents::Residents;
+
 use super::parameters::{LEAF_PHOTONS, PHOTONS};
 use crate::{Order, Reorder, Setting, Store};
 use join::Join;
 use pm_registry::{Domain, Parameter, ParameterError, Values};
-use residents::Residents;
 
 const RESIDENT: Parameter =
     Parameter::new("resident", Domain::count(0, u32::MAX as u64), "most photons of the cells that are resident")

@@ -2,7 +2,7 @@
 
 use super::inputs;
 use super::verdict::{Fault, STORE, Verdict};
-use crate::{Limits, Order, Per, Reordering, Setting};
+use crate::{Limits, Order, Per, Reordering, Setting, Store};
 use pm_formats::vocabulary::measure;
 use pm_formats::{BlockMeta, Bounds, Number, Query};
 use pm_random::Random;
@@ -38,12 +38,15 @@ impl Form {
     /// # Errors
     /// If it cannot be built.
     pub fn build(&self, per: Per, bounds: Bounds, memory: u64) -> Result<Reordering, Fault> {
-        let mut random = Random::new(&[9]);
-        let mut photons = || (0..2000).map(|_| inputs::in_a_cube(&mut random)).collect();
+        self.build_with(STORE, per, bounds, memory)
+    }
+
+    /// The same with another store.
+    pub(crate) fn build_with(&self, store: Store, per: Per, bounds: Bounds, memory: u64) -> Result<Reordering, Fault> {
         let setting = Setting {
             values: &self.chosen.values,
             bounds,
-            store: STORE,
+            store,
             photons: self.chosen.values.file().map(|_| photons()),
             limits: Limits { memory, folder: std::env::temp_dir(), announce: Box::new(|| {}) },
         };
@@ -57,6 +60,12 @@ impl Form {
     pub(super) fn holds(&self, holds: bool, what: impl FnOnce() -> String) -> Verdict {
         if holds { Ok(()) } else { Err(Fault { order: self.line.clone(), what: what() }) }
     }
+}
+
+/// The photons of `map.pmp` in forms of orders.
+pub(crate) fn photons() -> Vec<[f32; 3]> {
+    let mut random = Random::new(&[9]);
+    (0..2000).map(|_| inputs::in_a_cube(&mut random)).collect()
 }
 
 /// What came out of an order, and what it says of itself.

@@ -52,7 +52,8 @@ impl Join {
     fn charge(&mut self, n: u64, at_once: u64, casts: u32, cells: u64) {
         let store = self.costs.store();
         let waiting = n - at_once;
-        if waiting <= store.room() {
+        // How many will wait is not known while they come; how many come is.
+        if n <= store.room() {
             self.costs.group(n, 0, waiting * store.record.bytes());
         } else {
             // A buffer for each cell while they are written, one while they are read.
