@@ -4,7 +4,7 @@ mod foreign;
 mod streams;
 
 use super::mutate::LONGEST;
-use super::targets::unpacked;
+use super::targets::{archive, unpacked};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -69,6 +69,7 @@ fn files(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
 fn all_streams() -> Vec<Vec<u8>> {
     let mut all = files(&root().join("formats/tests/golden"), "");
     all.extend([streams::photons(), streams::unrounded(), streams::queries(None, true), streams::trace(None)]);
+    all.extend([streams::trace(None), streams::walks()].map(|trace| archive(&trace)));
     all
 }
 

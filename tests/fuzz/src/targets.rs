@@ -8,6 +8,7 @@ mod streams;
 mod tables;
 
 pub use mend::{mended, unpacked};
+pub use streams::archive;
 
 /// A reader that is tried.
 pub struct Target {

@@ -108,3 +108,42 @@ pub(super) fn trace(part: Option<&str>) -> Vec<u8> {
     }
     writer.finish(vec![]).expect("memory takes all")
 }
+
+/// A trace of walks alone, of a tree small enough for its tables and with searches enough for an archive to code them.
+pub(super) fn walks() -> Vec<u8> {
+    let regions = lay_out([("tree".to_owned(), 31 * 20, 20, Coding::HeapWalk { nodes: 31, reread: true })]);
+    let header = Header { regions, ..header(None) };
+    let mut writer = TraceWriter::new(vec![], &header).expect("a header");
+    let mut encoder = BlockEncoder::new(&header.regions);
+    // Each search does at each node what the one before did, but for some chance (Knuth's constants of a linear congruential
+    // generator): which child is first, and is the other visited?
+    let (mut random, mut does) = (1u64, [0u8; 31]);
+    for search in 0..WALKS {
+        let mut path = vec![];
+        let mut ahead = vec![0u32];
+        while let Some(node) = ahead.pop() {
+            path.push(node);
+            if node >= 15 {
+                continue;
+            }
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let does = &mut does[node as usize];
+            if random >> 60 == 0 {
+                *does = (random >> 50) as u8 & 3;
+            }
+            let first = 2 * node + 1 + u32::from(*does & 1);
+            let second = 4 * node + 3 - first;
+            ahead.extend((*does & 2 != 0).then_some(second));
+            ahead.push(first);
+        }
+        encoder.begin(&[search]);
+        encoder.records(0, &path);
+        encoder.end();
+    }
+    let (block, tally) = encoder.finish(BlockMeta::default()).expect("a block");
+    writer.write(&block, tally).expect("memory takes all");
+    writer.finish(vec![]).expect("memory takes all")
+}
+
+/// Searches of the trace of walks.
+const WALKS: u32 = 2600;

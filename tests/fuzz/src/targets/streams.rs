@@ -105,15 +105,24 @@ fn trace(data: &[u8]) -> bool {
 
 /// The sum of a whole trace's accesses after it was archived.
 fn archived(data: &[u8]) -> u64 {
-    let mut reader = TraceReader::new(data).expect("read before");
+    let kept = archive(data);
+    let mut again = TraceReader::new(&kept[..]).expect("an archive is a stream");
+    let mut sum = Sum::default();
+    while again.replay_block(&mut sum).expect("an archive is whole").is_some() {}
+    sum.sum
+}
+
+/// A whole trace, for keeping.
+///
+/// # Panics
+/// If it is not whole.
+#[must_use]
+pub fn archive(trace: &[u8]) -> Vec<u8> {
+    let mut reader = TraceReader::new(trace).expect("read before");
     let mut writer = TraceWriter::new(vec![], reader.header()).expect("a header that was read can be written");
     while let Some((block, tally)) = reader.next_archived().expect("read before") {
         writer.write(&block, tally).expect("memory takes all");
     }
     let stages = reader.end().expect("read before").stages.clone();
-    let kept = writer.finish(stages).expect("memory takes all");
-    let mut again = TraceReader::new(&kept[..]).expect("an archive is a stream");
-    let mut sum = Sum::default();
-    while again.replay_block(&mut sum).expect("an archive is whole").is_some() {}
-    sum.sum
+    writer.finish(stages).expect("memory takes all")
 }
