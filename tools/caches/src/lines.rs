@@ -3,6 +3,7 @@
 mod accesses;
 mod attributes;
 mod chunk;
+mod place_table;
 mod places;
 mod space;
 

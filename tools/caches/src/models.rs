@@ -9,7 +9,7 @@ mod sets;
 mod uncached;
 
 pub use cache_on_trace::CacheOnTrace;
-pub(crate) use lru_stack::{LruStack, MAX_SIZES};
+pub(crate) use lru_stack::{MAX_SIZES, lru_stack};
 pub(crate) use optimum::{Bypass, FewWays, OneSet, Optimum};
 pub use replacement::Replacement;
 pub(crate) use set_associative::{MAX_FRAMES, SetAssociative};

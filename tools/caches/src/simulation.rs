@@ -181,6 +181,7 @@ impl Simulation {
             }
         }
         for (&shift, places) in &mut self.places {
+            self.groups.iter_mut().filter(|group| group.page_shift == shift).for_each(|group| group.space.let_go());
             places.take(&accesses, self.measures.span);
             for group in self.groups.iter_mut().filter(|group| group.page_shift == shift) {
                 group.space.extend(places.pages());

@@ -5,9 +5,9 @@
 //! side need no places side by side: of an access the places of its first and of its last byte are told, and one that goes on
 //! in more than two pages becomes an access for each. Lines end where pages do, so there are as many line accesses as ever.
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use std::sync::Arc;
 
+use super::place_table::{GOLDEN, PlaceTable};
 use super::{Accesses, Shape};
 use crate::SpanRule;
 
@@ -25,9 +25,11 @@ pub(crate) struct Places {
     /// log2 of the bytes of a page.
     shift: u32,
     recent: Box<[(u64, u32)]>,
-    places: HashMap<u64, u32, BuildHasherDefault<PageHasher>>,
+    places: PlaceTable,
     /// Page numbers, by place.
-    pages: Vec<u64>,
+    pages: Arc<Vec<u64>>,
+    /// Accesses to pages that are not remembered, and the places that their pages may have.
+    unknown: Vec<(u32, u32)>,
     /// Of the accesses taken last, first and last byte in the places of their pages, as many as were taken.
     firsts: Vec<u64>,
     lasts: Vec<u64>,
@@ -43,8 +45,9 @@ impl Places {
         Self {
             shift,
             recent: vec![(NO_PAGE, 0); 1 << RECENT].into(),
-            places: HashMap::default(),
-            pages: vec![],
+            places: PlaceTable::new(),
+            pages: Arc::default(),
+            unknown: vec![],
             firsts: vec![],
             lasts: vec![],
             taken: 0,
@@ -53,8 +56,8 @@ impl Places {
         }
     }
 
-    /// Numbers of the pages touched, by place.
-    pub(crate) fn pages(&self) -> &[u64] {
+    /// Numbers of the pages touched, by place. Who keeps them lets go of them before others are taken.
+    pub(crate) fn pages(&self) -> &Arc<Vec<u64>> {
         &self.pages
     }
 
@@ -62,7 +65,7 @@ impl Places {
     /// out, but for its pages.
     ///
     /// # Panics
-    /// If an access goes on beyond the last address.
+    /// If an access goes on beyond the last address, or somebody keeps the [`pages`](Self::pages).
     pub(crate) fn take(&mut self, accesses: &Accesses, span: SpanRule) {
         let (shift, low) = (self.shift, (1 << self.shift) - 1);
         let number = accesses.offsets.len();
@@ -74,12 +77,19 @@ impl Places {
         let mut longest = 0;
         // Out of the way of the table, so that where they lie is known for the whole pass.
         let (mut firsts, mut lasts) = (std::mem::take(&mut self.firsts), std::mem::take(&mut self.lasts));
+        self.unknown.clear();
         let taken = firsts.iter_mut().zip(&mut lasts);
-        for ((&offset, shape), (to_first, to_last)) in accesses.offsets.iter().zip(accesses.shapes).zip(taken) {
-            let first = u64::from(self.place(offset >> shift)) << shift | (offset & low);
+        for (i, ((&offset, shape), (to_first, to_last))) in
+            accesses.offsets.iter().zip(accesses.shapes).zip(taken).enumerate()
+        {
+            let page = offset >> shift;
+            let (known, place) = self.recent[recent(page)];
             let more = u64::from(shape.len().max(1) - 1);
-            *to_first = first;
-            *to_last = first + (more & all);
+            *to_first = u64::from(place) << shift | (offset & low);
+            *to_last = *to_first + (more & all);
+            if known != page {
+                self.unknown.push((i as u32, 0));
+            }
             if (offset & low) + more > low {
                 longest = longest.max(more);
                 let last = offset.checked_add(more).expect("an access outside of its region: beyond the last address");
@@ -89,11 +99,37 @@ impl Places {
                 }
             }
         }
+        self.find(accesses, all, &mut firsts, &mut lasts);
         (self.firsts, self.lasts) = (firsts, lasts);
         // Further pages than two have to be there too.
         if longest > low {
             self.cut(accesses, span);
         }
+    }
+
+    /// Mends the places of the unknown pages of accesses. Where pages are far apart, each look at the table waits for memory: so
+    /// all guesses are asked for before one is used.
+    fn find(&mut self, accesses: &Accesses, all: u64, firsts: &mut [u64], lasts: &mut [u64]) {
+        let (shift, low) = (self.shift, (1 << self.shift) - 1);
+        let mut unknown = std::mem::take(&mut self.unknown);
+        for (i, guess) in &mut unknown {
+            *guess = self.places.first_guess(accesses.offsets[*i as usize] >> shift);
+        }
+        for &(i, guess) in &unknown {
+            let i = i as usize;
+            let (page, in_page) = (accesses.offsets[i] >> shift, accesses.offsets[i] & low);
+            let place = match self.pages.get(guess as usize) {
+                Some(&number) if number == page => self.remember(page, guess),
+                _ => self.place(page),
+            };
+            firsts[i] = u64::from(place) << shift | in_page;
+            let more = u64::from(accesses.shapes[i].len().max(1) - 1) & all;
+            // What ends in another page knows that page's place.
+            if in_page + more <= low {
+                lasts[i] = firsts[i] + more;
+            }
+        }
+        self.unknown = unknown;
     }
 
     /// The same where some accesses go on in more than two pages: an access for each page.
@@ -132,43 +168,28 @@ impl Places {
     /// The place of a page.
     #[inline]
     fn place(&mut self, page: u64) -> u32 {
-        // Pages side by side are far apart in this order, and multiples of powers of two too (Knuth, *The Art of Computer
-        // Programming* 3, 6.4, on multiplicative hashing).
-        let at = (page.wrapping_mul(GOLDEN) >> (64 - RECENT)) as usize;
-        let (known, place) = self.recent[at];
-        if known == page { place } else { self.look_up(page, at) }
+        let (known, place) = self.recent[recent(page)];
+        if known == page { place } else { self.look_up(page) }
     }
 
     #[inline(never)]
-    fn look_up(&mut self, page: u64, at: usize) -> u32 {
-        let next = self.pages.len() as u32;
-        let place = *self.places.entry(page).or_insert(next);
-        if place == next {
-            self.pages.push(page);
-        }
-        self.recent[at] = (page, place);
+    fn look_up(&mut self, page: u64) -> u32 {
+        let pages = Arc::get_mut(&mut self.pages).expect("nobody keeps the pages while new ones are found");
+        let place = self.places.place(page, pages);
+        self.remember(page, place)
+    }
+
+    #[inline]
+    fn remember(&mut self, page: u64, place: u32) -> u32 {
+        self.recent[recent(page)] = (page, place);
         place
     }
 }
 
-/// 2^64 over the golden ratio, odd.
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-
-/// Hashes a page number: both halves of a long product, so that all of its bits make a difference to all of the hash.
-#[derive(Default)]
-struct PageHasher(u64);
-
-impl Hasher for PageHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
-    }
-
-    fn write_u64(&mut self, number: u64) {
-        let product = u128::from(self.0 ^ number ^ GOLDEN) * u128::from(GOLDEN);
-        self.0 = (product >> 64) as u64 ^ product as u64;
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
+/// Where a page is remembered.
+#[inline]
+fn recent(page: u64) -> usize {
+    // Pages side by side are far apart in this order, and multiples of powers of two too (Knuth, *The Art of Computer
+    // Programming* 3, 6.4, on multiplicative hashing).
+    (page.wrapping_mul(GOLDEN) >> (64 - RECENT)) as usize
 }

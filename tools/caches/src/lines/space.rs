@@ -1,5 +1,7 @@
 //! A number for each line of the traced memory, without gaps.
 
+use std::sync::Arc;
+
 use pm_formats::trace::Region;
 
 use super::{MAX_LINES, Shape};
@@ -16,7 +18,7 @@ pub struct LineSpace {
     pub(super) regions: Vec<Numbering>,
     slots: u64,
     /// Where lines are numbered by the places of their pages: log2 of the lines of a page, and the pages by place.
-    pages: Option<(u32, Vec<u64>)>,
+    pages: Option<(u32, Arc<Vec<u64>>)>,
     /// Bits of a record's length that count: all, or none if only the line of its first byte is touched.
     pub(super) len_mask: u32,
     /// A record counts once.
@@ -70,15 +72,22 @@ impl LineSpace {
     /// the only one. A line is no longer than a page.
     pub(crate) fn of_places(line_bytes: u32, page_shift: u32) -> Self {
         let shift = line_bytes.ilog2();
-        let pages = Some((page_shift - shift, vec![]));
+        let pages = Some((page_shift - shift, Arc::default()));
         Self { shift, regions: vec![Numbering::default()], slots: 0, pages, len_mask: u32::MAX, once: false }
     }
 
-    /// Where pages have places: there are these, by place, of which it knows the first ones.
-    pub(crate) fn extend(&mut self, pages: &[u64]) {
+    /// Where pages have places: there are these, by place, and the first are as before.
+    pub(crate) fn extend(&mut self, pages: &Arc<Vec<u64>>) {
         if let Some((lines, known)) = &mut self.pages {
-            known.extend_from_slice(&pages[known.len()..]);
-            self.slots = (known.len() as u64) << *lines;
+            self.slots = (pages.len() as u64) << *lines;
+            *known = Arc::clone(pages);
+        }
+    }
+
+    /// Lets go of the pages, so that others are found: until it is told them again, lines have no numbers.
+    pub(crate) fn let_go(&mut self) {
+        if let Some((_, known)) = &mut self.pages {
+            *known = Arc::default();
         }
     }
 
@@ -123,6 +132,11 @@ impl LineSpace {
     pub(super) fn more_lines(&self, offset: u64, len: u32) -> u32 {
         let in_line = offset & u64::from(self.line_bytes() - 1);
         ((in_line + u64::from((len & self.len_mask).max(1) - 1)) >> self.shift) as u32
+    }
+
+    /// Lines of a page that has a place; 1 where there are no such pages.
+    pub(crate) fn page_lines(&self) -> u32 {
+        self.pages.as_ref().map_or(1, |(lines, _)| 1 << lines)
     }
 
     /// How many lines from that of `slot` on lie side by side for sure: to the end of its page, where pages have places.

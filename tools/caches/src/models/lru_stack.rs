@@ -16,26 +16,30 @@
 //! One stack also beats one simulator for each size: the seven in ten accesses that hit the smallest cache do nothing for
 //! the larger ones, while separate simulators would look each of them up again (`cargo bench --bench cache` has both).
 
+mod growing;
 mod level;
 mod pending;
 mod queue;
 #[cfg(test)]
 mod tests;
+mod times;
 
+use growing::Growing;
 use level::{Level, depth_of, make_room};
 use pending::Pending;
-use queue::{FIRST_TIME, GONE, LastUse, NEVER, Queue, Use};
+use queue::{FIRST_TIME, GONE, Queue, Use};
+use times::{OfLines, Times};
 
 use super::{CacheModel, LineCounts};
 use crate::{
-    lines::{LineChunk, LineSpace, grow},
+    lines::{LineChunk, LineSpace},
     misses::Misses,
 };
 
 /// Fully associative LRU caches of one line size.
-pub(crate) struct LruStack {
-    /// By slot: when it was last used.
-    last: Vec<u32>,
+struct LruStack<T> {
+    /// When lines were last used.
+    last: T,
     levels: Vec<Level>,
     now: u32,
     /// Times stay below this; on reaching it, they are numbered anew.
@@ -45,7 +49,7 @@ pub(crate) struct LruStack {
     missed: Vec<u64>,
     /// Counted first touches.
     compulsory: u64,
-    /// Dirtiness; empty until there is a write.
+    /// Dirtiness, by the line's place beside its time; empty until there is a write.
     dirt: Vec<u16>,
     /// Counted writes by how many of the caches they turned the line dirty in.
     dirtied: Vec<u64>,
@@ -54,9 +58,17 @@ pub(crate) struct LruStack {
 /// The most sizes one stack takes.
 pub(crate) const MAX_SIZES: usize = u16::MAX as usize;
 
-impl LruStack {
-    /// Caches that hold so many lines each: at least one size, at most [`MAX_SIZES`], ascending and all different.
-    pub(crate) fn new(space: &LineSpace, regions: usize, sizes: &[u64]) -> Self {
+/// Caches that hold so many lines each: at least one size, at most [`MAX_SIZES`], ascending and all different.
+pub(crate) fn lru_stack(space: &LineSpace, regions: usize, sizes: &[u64]) -> Box<dyn CacheModel> {
+    match space.grows() {
+        true => Box::new(Growing::OfLines(LruStack::new(space, regions, sizes))),
+        false => Box::new(LruStack::<OfLines>::new(space, regions, sizes)),
+    }
+}
+
+impl<T: Times> LruStack<T> {
+    /// As [`lru_stack`].
+    fn new(space: &LineSpace, regions: usize, sizes: &[u64]) -> Self {
         assert!(!sizes.is_empty() && sizes.len() <= MAX_SIZES && sizes.is_sorted_by(|a, b| a < b) && sizes[0] > 0);
         let mut smaller = 0;
         let level = |&size: &u64| {
@@ -64,7 +76,7 @@ impl LruStack {
             Level { capacity, lines: 0, tail: GONE, queue: Queue::default() }
         };
         Self {
-            last: vec![NEVER; space.slots() as usize],
+            last: T::new(space),
             levels: sizes.iter().map(level).collect(),
             now: FIRST_TIME,
             horizon: u32::MAX,
@@ -87,29 +99,38 @@ impl LruStack {
         misses: &mut Misses,
     ) {
         let (slots, start) = (chunk.slots(), self.now);
-        let last = LastUse(&mut self.last);
+        self.last.ahead(slots);
+        let last = &mut self.last;
         let mut pending = Pending { slots, start, seen: 0 };
         let mut tail = self.levels[0].tail;
         for (i, &slot) in slots.iter().enumerate() {
-            let before = std::mem::replace(&mut last.0[slot as usize], start + i as u32);
+            let before = last.replace(slot, start + i as u32);
             let mut depth = 0;
             if before < tail {
-                if ONE_SIZE {
-                    depth = 1;
-                    self.levels[0].admit(&mut pending, i, &last);
-                } else {
-                    depth = depth_of(&self.levels, before);
-                    make_room(&mut self.levels, depth, &mut pending, i, &last);
+                depth = if ONE_SIZE { 1 } else { depth_of(&self.levels, before) };
+                if ONE_SIZE || depth == self.levels.len() {
+                    let first = last.comes(slot, before);
+                    self.compulsory += u64::from(counted && first);
+                }
+                let out = match ONE_SIZE {
+                    true => self.levels[0].admit(&mut pending, i, last),
+                    false => make_room(&mut self.levels, depth, &mut pending, i, last),
+                };
+                if let Some(out) = out {
+                    last.leaves(out.slot);
                 }
                 tail = self.levels[0].tail;
                 misses.push(i, depth);
                 self.missed[depth * self.regions + chunk.attributes(i).region()] += u64::from(counted);
-                self.compulsory += u64::from(counted && before == NEVER);
             }
             if WRITES {
                 // The caches a line is dirty in are always the largest ones, since a fetch makes it clean in the smaller
                 // and a write dirty in all: `dirt` is the number of caches it is clean or absent in.
-                let dirt = &mut self.dirt[slot as usize];
+                let place = last.place(slot);
+                if place >= self.dirt.len() {
+                    self.dirt.resize(last.places(), self.levels.len() as u16);
+                }
+                let dirt = &mut self.dirt[place];
                 *dirt = (*dirt).max(depth as u16);
                 if counted && chunk.attributes(i).writes() {
                     self.dirtied[usize::from(*dirt)] += 1;
@@ -118,7 +139,7 @@ impl LruStack {
             }
         }
         if let Some(first) = self.levels.first_mut() {
-            pending.move_to(&mut first.queue, slots.len(), &last);
+            pending.move_to(&mut first.queue, slots.len(), last);
         }
         self.now = start + slots.len() as u32;
     }
@@ -126,16 +147,16 @@ impl LruStack {
     /// Numbers the live uses from the first time on, in the same order, so that times never run out.
     #[cold]
     fn renumber(&mut self) {
-        let last = LastUse(&mut self.last);
-        let mut live: Vec<Vec<Use>> = self.levels.iter().map(|l| l.queue.live(&last).collect()).collect();
-        last.0.iter_mut().filter(|t| **t != NEVER).for_each(|t| *t = GONE);
+        let last = &mut self.last;
+        let mut live: Vec<Vec<Use>> = self.levels.iter().map(|l| l.queue.live(last).collect()).collect();
+        last.forget();
         self.now = FIRST_TIME;
         // The deepest level is the oldest.
         for (level, uses) in self.levels.iter_mut().zip(&mut live).rev() {
             level.tail = self.now;
             for u in &mut *uses {
                 u.time = self.now;
-                last.0[u.slot as usize] = self.now;
+                last.replace(u.slot, self.now);
                 self.now += 1;
             }
             level.queue = Queue { head: 0, tail: uses.len(), uses: std::mem::take(uses) };
@@ -143,16 +164,14 @@ impl LruStack {
     }
 }
 
-impl CacheModel for LruStack {
+impl<T: Times> CacheModel for LruStack<T> {
     fn run(&mut self, space: &LineSpace, chunk: &LineChunk, counted: bool, misses: &mut Misses) {
-        grow(&mut self.last, space, NEVER);
+        self.last.grow(space);
         if (self.horizon - self.now) as usize <= chunk.slots().len() {
             self.renumber();
         }
         if chunk.writes() && self.dirt.is_empty() {
-            self.dirt = vec![self.levels.len() as u16; self.last.len()];
-        } else if !self.dirt.is_empty() {
-            grow(&mut self.dirt, space, self.levels.len() as u16);
+            self.dirt = vec![self.levels.len() as u16; self.last.places().max(1)];
         }
         // A trace without writes, which most are, never looks at dirtiness.
         match (self.dirt.is_empty(), self.levels.len() == 1) {

@@ -6,7 +6,7 @@ mod times;
 use std::collections::BTreeMap;
 
 use super::Policy;
-use crate::models::{Answer, CacheModel, CacheOnTrace, LruStack, MAX_SIZES, Modelled};
+use crate::models::{Answer, CacheModel, CacheOnTrace, MAX_SIZES, Modelled, lru_stack};
 use crate::trial::{Definition, FullSet};
 use order::LruOrder;
 use times::LruTimes;
@@ -20,7 +20,7 @@ impl Policy for Lru {
     fn model(&self, cache: &CacheOnTrace) -> Box<dyn CacheModel> {
         match cache.sets() {
             // A single set is fully associative, whatever it is called.
-            1 => Box::new(LruStack::new(cache.space(), cache.regions(), &[cache.config().lines()])),
+            1 => lru_stack(cache.space(), cache.regions(), &[cache.config().lines()]),
             _ => self.model_with_write_backs(cache),
         }
     }
@@ -47,7 +47,7 @@ impl Policy for Lru {
             let answers = alike.into_iter().enumerate();
             let answers = answers.flat_map(|(counts, of)| of.iter().map(move |&cache| Answer { cache, counts }));
             let first = &caches[sizes[0].1[0]];
-            let model = Box::new(LruStack::new(first.space(), first.regions(), &lines));
+            let model = lru_stack(first.space(), first.regions(), &lines);
             models.push(Modelled { model, answers: answers.collect() });
         }
         models

@@ -1,7 +1,8 @@
 //! What one size of cache adds to the next smaller one.
 
 use super::pending::Pending;
-use super::queue::{LastUse, Queue, Use};
+use super::queue::{Queue, Use};
+use super::times::Times;
 
 /// What one size adds to the next smaller one.
 pub(super) struct Level {
@@ -17,7 +18,7 @@ pub(super) struct Level {
 impl Level {
     /// One line more: the oldest has to leave if the level is full. What it holds is all in its queue.
     #[inline]
-    pub(super) fn pass_down(&mut self, last: &LastUse) -> Option<Use> {
+    pub(super) fn pass_down(&mut self, last: &impl Times) -> Option<Use> {
         if self.lines < self.capacity {
             self.lines += 1;
             return None;
@@ -29,7 +30,7 @@ impl Level {
 
     /// The same for the first level, part of whose lines are in what is pending before index `now`.
     #[inline]
-    pub(super) fn admit(&mut self, pending: &mut Pending, now: usize, last: &LastUse) -> Option<Use> {
+    pub(super) fn admit(&mut self, pending: &mut Pending, now: usize, last: &impl Times) -> Option<Use> {
         if self.lines < self.capacity {
             self.lines += 1;
             return None;
@@ -51,16 +52,26 @@ pub(super) fn depth_of(levels: &[Level], before: u32) -> usize {
     1 + levels[1..].iter().take_while(|level| before < level.tail).count()
 }
 
-/// Makes room in the first level for the access at index `now`: each level above `depth` passes its oldest line down.
-pub(super) fn make_room(levels: &mut [Level], depth: usize, pending: &mut Pending, now: usize, last: &LastUse) {
-    let Some((first, others)) = levels.split_first_mut() else { return };
+/// Makes room in the first level for the access at index `now`: each level above `depth` passes its oldest line down. What
+/// leaves the last level is in no cache any more.
+pub(super) fn make_room(
+    levels: &mut [Level],
+    depth: usize,
+    pending: &mut Pending,
+    now: usize,
+    last: &impl Times,
+) -> Option<Use> {
+    let (first, others) = levels.split_first_mut()?;
     let mut from_above = first.admit(pending, now, last);
     for level in &mut others[..depth - 1] {
-        let Some(u) = from_above else { return };
-        level.queue.push(u, last);
+        level.queue.push(from_above?, last);
         from_above = level.pass_down(last);
     }
-    if let (Some(u), Some(level)) = (from_above, others.get_mut(depth - 1)) {
-        level.queue.push(u, last);
+    match others.get_mut(depth - 1) {
+        Some(level) => {
+            level.queue.push(from_above?, last);
+            None
+        }
+        None => from_above,
     }
 }

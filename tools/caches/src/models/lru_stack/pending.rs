@@ -1,6 +1,7 @@
 //! The part of the chunk in hand that the levels have not seen.
 
-use super::queue::{LastUse, Queue, Use};
+use super::queue::{Queue, Use};
+use super::times::Times;
 
 /// The part of the chunk in hand that no queue has seen yet.
 pub(super) struct Pending<'a> {
@@ -17,14 +18,14 @@ const STEP: usize = 64;
 impl Pending<'_> {
     /// Moves the live ones of the next few uses before index `now` to the queue.
     #[inline(never)]
-    pub(super) fn move_some(&mut self, queue: &mut Queue, now: usize, last: &LastUse) {
+    pub(super) fn move_some(&mut self, queue: &mut Queue, now: usize, last: &impl Times) {
         assert!(self.seen < now, "a full level has lines");
         self.move_to(queue, now.min(self.seen + STEP), last);
     }
 
     /// Moves live uses before index `end` to the queue.
     #[inline]
-    pub(super) fn move_to(&mut self, queue: &mut Queue, end: usize, last: &LastUse) {
+    pub(super) fn move_to(&mut self, queue: &mut Queue, end: usize, last: &impl Times) {
         let slots = &self.slots[self.seen..end];
         queue.reserve(slots.len(), last);
         let time = self.start + self.seen as u32;

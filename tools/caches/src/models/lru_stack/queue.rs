@@ -1,5 +1,7 @@
 //! Uses of lines in order of time: the candidates of a level.
 
+use super::times::Times;
+
 /// A use of a line: its slot and when.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Use {
@@ -7,23 +9,12 @@ pub(super) struct Use {
     pub(super) time: u32,
 }
 
-/// When each slot was last used. Times start at [`FIRST_TIME`]. Borrowed, so that where it lies is known for a whole pass.
-pub(super) struct LastUse<'a>(pub(super) &'a mut [u32]);
-
 /// Not yet used. An explicit offset: no access happens at time 0, and slot 0 is a slot like any other.
 pub(super) const NEVER: u32 = 0;
 /// Used long ago, and in no cache since: what is left of a time when times are numbered anew.
 pub(super) const GONE: u32 = 1;
 /// The first access happens now.
 pub(super) const FIRST_TIME: u32 = 2;
-
-impl LastUse<'_> {
-    /// Whether nothing has touched the line since.
-    #[inline]
-    pub(super) fn is(&self, u: Use) -> bool {
-        self.0[u.slot as usize] == u.time
-    }
-}
 
 /// Uses in order of time, oldest first, dead ones among them.
 #[derive(Default)]
@@ -38,14 +29,14 @@ impl Queue {
     /// Makes room for `n` more, by dropping dead uses if that frees half of the space, else by growing: so each use is
     /// moved a bounded number of times, and the space stays within a small multiple of the live lines.
     #[inline]
-    pub(super) fn reserve(&mut self, n: usize, last: &LastUse) {
+    pub(super) fn reserve(&mut self, n: usize, last: &impl Times) {
         if self.tail + n > self.uses.len() {
             self.tidy(n, last);
         }
     }
 
     #[cold]
-    fn tidy(&mut self, n: usize, last: &LastUse) {
+    fn tidy(&mut self, n: usize, last: &impl Times) {
         let mut kept = 0;
         for i in self.head..self.tail {
             let u = self.uses[i];
@@ -59,7 +50,7 @@ impl Queue {
     }
 
     #[inline]
-    pub(super) fn push(&mut self, u: Use, last: &LastUse) {
+    pub(super) fn push(&mut self, u: Use, last: &impl Times) {
         self.reserve(1, last);
         self.uses[self.tail] = u;
         self.tail += 1;
@@ -67,7 +58,7 @@ impl Queue {
 
     /// Takes out the oldest live use.
     #[inline]
-    pub(super) fn pop(&mut self, last: &LastUse) -> Option<Use> {
+    pub(super) fn pop(&mut self, last: &impl Times) -> Option<Use> {
         while self.head < self.tail {
             let u = self.uses[self.head];
             self.head += 1;
@@ -80,7 +71,7 @@ impl Queue {
         None
     }
 
-    pub(super) fn live(&self, last: &LastUse) -> impl Iterator<Item = Use> {
+    pub(super) fn live(&self, last: &impl Times) -> impl Iterator<Item = Use> {
         self.uses[self.head..self.tail].iter().copied().filter(|&u| last.is(u))
     }
 }
