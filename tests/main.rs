@@ -33,6 +33,7 @@ mod precomputed;
 mod private;
 mod readme;
 mod recipes;
+mod reverse;
 mod same_scene;
 mod scenes;
 mod situations;

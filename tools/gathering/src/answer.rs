@@ -39,72 +39,12 @@ impl Answerer<'_> {
     /// See [`Fault`].
     pub fn answer(&self, block: &Block) -> Result<Answered, Fault> {
         let (queries, tally) = decode_checked::<Query>(block, self.header).map_err(Fault::Damaged)?;
-        let mut found = Nearest::new(self.search.k, 0.0);
-        // Where the coding of walks implies the second touches they need not be remembered.
-        let walk = |region: &Region| matches!(region.coding, Coding::HeapWalk { reread: true, .. });
-        let implied = self.regions.is_some_and(|regions| regions.iter().any(walk));
-        let waiting = self.regions.is_some_and(|regions| regions.iter().any(|it| it.coding == Coding::Waiting));
-        let mut reads = match waiting {
-            true => SearchReads::with_waits(),
-            false => SearchReads::with_rereads(self.reread && !implied),
-        };
-        let mut scratch = Scratch::default();
-        let mut encoder = self.regions.map(BlockEncoder::new);
-        let mut contributions = Vec::with_capacity(if self.estimate.is_some() { queries.len() } else { 0 });
-        let mut cached = vec![];
-        let mut counts = SearchCounts::default();
-        let mut lookups = self.describe.map(|(line, regions)| Lookups::new(line, regions, self.map.padding()));
-        let watched = encoder.is_some() || lookups.is_some();
-        // A chain ends with its block: the stream says where.
-        let mut carry = Carry::default();
-        for query in &queries {
-            reads.clear();
-            let known = match self.precomputed.filter(|sites| sites.serves(query)) {
-                Some(sites) => {
-                    let known = sites.contribution(query, &mut reads);
-                    counts.attempts += 1;
-                    counts.no_site += u64::from(known.is_none());
-                    known
-                }
-                None => None,
-            };
-            if known.is_none() {
-                counts.attempts += u64::from(if watched {
-                    self.find(query.position, &mut carry, &mut found, &mut reads)
-                } else {
-                    self.find(query.position, &mut carry, &mut found, &mut Blind)
-                });
-                counts.short += u64::from(!found.is_full());
-                if let Some(lookups) = &mut lookups {
-                    lookups.add(query, &found, &reads);
-                }
-            }
-            counts.accesses += reads.len() as u64 + if implied { reads.rereads() } else { 0 };
-            if let Some(encoder) = &mut encoder {
-                encoder.begin(&[query.pixel]);
-                let mut waits = reads.waits();
-                for (region, records) in reads.runs() {
-                    let waits = waits.as_mut().and_then(|waits| waits.split_off(..records.len()));
-                    self.encode(encoder, region, records, waits);
-                }
-                encoder.end();
-            }
-            if let Some((estimate, film)) = self.estimate {
-                match known.unwrap_or_else(|| estimate.contribution(query, &found, &mut scratch)) {
-                    Outcome::Radiance(radiance) if query.is_for_record() => {
-                        let terms = self.cache.contributions(query.pixel, query.sample, radiance);
-                        for (sum, value) in terms.ok_or(Fault::Damaged("a query's irradiance record is not there"))? {
-                            cached.push((sum, film.quantise(value).ok_or(Fault::TooBright(Overflow(query.pixel)))?));
-                        }
-                    }
-                    Outcome::Radiance(radiance) => {
-                        let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
-                        contributions.push((query.pixel, units));
-                    }
-                    Outcome::NoArea => counts.no_area += 1,
-                }
-            }
+        let mut work = Work::new(self, queries.len());
+        match self.map.batch() {
+            Some(batch) => queries.chunks(batch).try_for_each(|queries| work.answer_together(queries))?,
+            None => work.answer_one_by_one(&queries)?,
         }
+        let Work { encoder, contributions, cached, counts, lookups, .. } = work;
         let trace = encoder.map(|encoder| encoder.finish(block.meta)).transpose().map_err(Fault::Format)?;
         Ok(Answered { trace, tally, contributions, cached, counts, lookups })
     }
@@ -130,5 +70,155 @@ impl Answerer<'_> {
         for &record in records {
             encoder.access(Access::read(region, offset_of(record, size, padding), size));
         }
+    }
+}
+
+/// A block of queries while it is answered.
+struct Work<'a> {
+    of: &'a Answerer<'a>,
+    /// The reads of a search that is not one of a batch.
+    reads: SearchReads,
+    /// Where the coding of walks implies the second touches they need not be remembered.
+    implied: bool,
+    scratch: Scratch,
+    encoder: Option<BlockEncoder<'a>>,
+    contributions: Vec<(u32, [i128; 3])>,
+    cached: Vec<(u32, [i128; 3])>,
+    counts: SearchCounts,
+    lookups: Option<Lookups>,
+}
+
+impl<'a> Work<'a> {
+    fn new(of: &'a Answerer<'a>, queries: usize) -> Self {
+        let any = |is: fn(&Region) -> bool| of.regions.is_some_and(|regions| regions.iter().any(is));
+        let implied = any(|region| matches!(region.coding, Coding::HeapWalk { reread: true, .. }));
+        let mut work = Self {
+            of,
+            reads: SearchReads::default(),
+            implied,
+            scratch: Scratch::default(),
+            encoder: of.regions.map(BlockEncoder::new),
+            contributions: Vec::with_capacity(if of.estimate.is_some() { queries } else { 0 }),
+            cached: vec![],
+            counts: SearchCounts::default(),
+            lookups: of.describe.map(|(line, regions)| Lookups::new(line, regions, of.map.padding())),
+        };
+        work.reads = work.observer();
+        work
+    }
+
+    /// What remembers the reads of a search.
+    fn observer(&self) -> SearchReads {
+        match self.of.regions.is_some_and(|regions| regions.iter().any(|it| it.coding == Coding::Waiting)) {
+            true => SearchReads::with_waits(),
+            false => SearchReads::with_rereads(self.of.reread && !self.implied),
+        }
+    }
+
+    /// Each query by a search of its own.
+    fn answer_one_by_one(&mut self, queries: &[Query]) -> Result<(), Fault> {
+        let of = self.of;
+        let mut found = Nearest::new(of.search.k, 0.0);
+        let watched = self.encoder.is_some() || self.lookups.is_some();
+        // A chain ends with its block: the stream says where.
+        let mut carry = Carry::default();
+        for query in queries {
+            let known = self.known(query);
+            if known.is_none() {
+                self.counts.attempts += u64::from(if watched {
+                    of.find(query.position, &mut carry, &mut found, &mut self.reads)
+                } else {
+                    of.find(query.position, &mut carry, &mut found, &mut Blind)
+                });
+                self.counts.short += u64::from(!found.is_full());
+                if let Some(lookups) = &mut self.lookups {
+                    lookups.add(query, &found, &self.reads);
+                }
+            }
+            let reads = std::mem::take(&mut self.reads);
+            self.log(&[query.pixel], &reads);
+            self.reads = reads;
+            self.add(query, known, &found)?;
+        }
+        Ok(())
+    }
+
+    /// Those queries by one search that nothing held beforehand knows of.
+    fn answer_together(&mut self, queries: &[Query]) -> Result<(), Fault> {
+        let of = self.of;
+        let (mut asking, mut together) = (vec![], self.observer());
+        let nobody = Nearest::new(of.search.k, 0.0);
+        for query in queries {
+            let known = self.known(query);
+            let reads = std::mem::take(&mut self.reads);
+            if known.is_some() {
+                self.log(&[query.pixel], &reads);
+                self.add(query, known, &nobody)?;
+            } else {
+                asking.push(query);
+                reads.runs().for_each(|(region, records)| records.iter().for_each(|&it| together.read(region, it)));
+            }
+            self.reads = reads;
+        }
+        if asking.is_empty() {
+            return Ok(());
+        }
+        let points: Vec<[f32; 3]> = asking.iter().map(|query| query.position).collect();
+        let mut found: Vec<Nearest> = points.iter().map(|_| Nearest::new(of.search.k, 0.0)).collect();
+        self.counts.attempts += u64::from(of.search.run_all(of.map, &points, &mut found, &mut together));
+        self.log(&asking.iter().map(|query| query.pixel).collect::<Vec<_>>(), &together);
+        for (query, found) in asking.into_iter().zip(&found) {
+            self.counts.short += u64::from(!found.is_full());
+            if let Some(lookups) = &mut self.lookups {
+                // The reads are the first one's, as if it had asked alone and the others had listened.
+                lookups.add(query, found, &together);
+                together.clear();
+            }
+            self.add(query, None, found)?;
+        }
+        Ok(())
+    }
+
+    /// What is known of a query beforehand, of which the reads are remembered, and no others.
+    fn known(&mut self, query: &Query) -> Option<Outcome> {
+        self.reads.clear();
+        let held = self.of.precomputed.filter(|held| held.serves(query))?;
+        let known = held.contribution(query, &mut self.reads);
+        self.counts.attempts += 1;
+        self.counts.no_site += u64::from(known.is_none());
+        known
+    }
+
+    /// Counts the reads of a search that serves these pixels, and puts them into the trace.
+    fn log(&mut self, pixels: &[u32], reads: &SearchReads) {
+        self.counts.accesses += reads.len() as u64 + if self.implied { reads.rereads() } else { 0 };
+        if let Some(encoder) = &mut self.encoder {
+            encoder.begin(pixels);
+            let mut waits = reads.waits();
+            for (region, records) in reads.runs() {
+                let waits = waits.as_mut().and_then(|waits| waits.split_off(..records.len()));
+                self.of.encode(encoder, region, records, waits);
+            }
+            encoder.end();
+        }
+    }
+
+    /// Adds what a query sees, known or estimated from what was found, to its pixel or record, if there is a picture.
+    fn add(&mut self, query: &Query, known: Option<Outcome>, found: &Nearest) -> Result<(), Fault> {
+        let Some((estimate, film)) = self.of.estimate else { return Ok(()) };
+        match known.unwrap_or_else(|| estimate.contribution(query, found, &mut self.scratch)) {
+            Outcome::Radiance(radiance) if query.is_for_record() => {
+                let terms = self.of.cache.contributions(query.pixel, query.sample, radiance);
+                for (sum, value) in terms.ok_or(Fault::Damaged("a query's irradiance record is not there"))? {
+                    self.cached.push((sum, film.quantise(value).ok_or(Fault::TooBright(Overflow(query.pixel)))?));
+                }
+            }
+            Outcome::Radiance(radiance) => {
+                let units = film.quantise(radiance).ok_or(Fault::TooBright(Overflow(query.pixel)))?;
+                self.contributions.push((query.pixel, units));
+            }
+            Outcome::NoArea => self.counts.no_area += 1,
+        }
+        Ok(())
     }
 }

@@ -29,6 +29,10 @@ pub trait AnyMap: Send + Sync {
     fn measures(&self) -> Vec<(&'static str, Number)>;
     /// See [`PhotonMap::blocks`].
     fn blocks(&self) -> Option<(u16, Vec<u32>)>;
+    /// See [`PhotonMap::batch`].
+    fn batch(&self) -> Option<usize>;
+    /// [`PhotonMap::nearest_of_all`] with its reads remembered.
+    fn nearest_of_all_read(&self, points: &[[f32; 3]], found: &mut [&mut Nearest], reads: &mut SearchReads);
     /// [`PhotonMap::nearest`] seen by nobody.
     fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest);
     /// [`PhotonMap::nearest`] with its reads remembered.
@@ -78,6 +82,14 @@ impl<M: PhotonMap> AnyMap for M {
         PhotonMap::blocks(self)
     }
 
+    fn batch(&self) -> Option<usize> {
+        PhotonMap::batch(self)
+    }
+
+    fn nearest_of_all_read(&self, points: &[[f32; 3]], found: &mut [&mut Nearest], reads: &mut SearchReads) {
+        self.nearest_of_all(points, found, reads);
+    }
+
     fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest) {
         self.nearest(point, found, &mut super::Blind);
     }
@@ -123,6 +135,10 @@ impl PhotonMap for dyn AnyMap + '_ {
 
     fn blocks(&self) -> Option<(u16, Vec<u32>)> {
         AnyMap::blocks(self)
+    }
+
+    fn batch(&self) -> Option<usize> {
+        AnyMap::batch(self)
     }
 
     #[inline]

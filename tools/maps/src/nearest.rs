@@ -88,31 +88,39 @@ impl Nearest {
     /// Shows a photon at this squared distance.
     #[inline]
     pub fn show(&mut self, distance_squared: f32, id: u32) {
+        self.show_touching(distance_squared, id, |_| ());
+    }
+
+    /// The same, where `touch` is told of each candidate that is read or written, by its slot.
+    #[inline]
+    pub fn show_touching(&mut self, distance_squared: f32, id: u32, mut touch: impl FnMut(usize)) {
         // Also false for NaN.
         if distance_squared <= self.bound {
             let key = rank(distance_squared, id);
             if self.keys.len() < self.k {
+                touch(self.keys.len());
                 self.keys.push(key);
                 if self.keys.len() == self.k {
-                    self.make_heap();
+                    self.make_heap(touch);
                 }
             } else if key < self.keys[0] {
-                self.sift_down(0, key);
+                self.sift_down(0, key, &mut touch);
                 self.tighten();
             }
         }
     }
 
     #[cold]
-    fn make_heap(&mut self) {
+    fn make_heap(&mut self, mut touch: impl FnMut(usize)) {
         for at in (0..self.k / 2).rev() {
-            self.sift_down(at, self.keys[at]);
+            self.sift_down(at, self.keys[at], &mut touch);
         }
         self.tighten();
     }
 
     /// Puts `key` at `at` or below it, wherever the heap wants it.
-    fn sift_down(&mut self, mut at: usize, key: u64) {
+    #[inline(always)]
+    fn sift_down(&mut self, mut at: usize, key: u64, touch: &mut impl FnMut(usize)) {
         let keys = &mut self.keys[..];
         loop {
             let left = 2 * at + 1;
@@ -120,14 +128,20 @@ impl Nearest {
                 break;
             }
             let right = left + 1;
+            touch(left);
+            if right < keys.len() {
+                touch(right);
+            }
             let larger = if right < keys.len() && keys[right] > keys[left] { right } else { left };
             if keys[larger] <= key {
                 break;
             }
             keys[at] = keys[larger];
+            touch(at);
             at = larger;
         }
         keys[at] = key;
+        touch(at);
     }
 
     fn tighten(&mut self) {

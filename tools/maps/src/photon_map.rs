@@ -59,6 +59,19 @@ pub trait PhotonMap: Send + Sync {
         None
     }
 
+    /// Queries that are answered together, if it does not answer one by one: of a batch [`nearest_of_all`](Self::nearest_of_all)
+    /// reads less than of each of its queries by itself.
+    fn batch(&self) -> Option<usize> {
+        None
+    }
+
+    /// [`nearest`](Self::nearest) of each point of a batch.
+    fn nearest_of_all(&self, points: &[[f32; 3]], found: &mut [&mut Nearest], eyes: &mut impl AccessObserver) {
+        for (&point, found) in points.iter().zip(found) {
+            self.nearest(point, found, eyes);
+        }
+    }
+
     /// Finds the photons nearest to `point`, within the bound of `found`, which holds none before.
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver);
 }

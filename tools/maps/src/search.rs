@@ -1,7 +1,7 @@
 //! One search with its radii: a limit, which is part of the answer, and a hint where to start, which is not.
 
 use super::carry::Known;
-use super::{AccessObserver, Nearest, PhotonMap};
+use super::{AccessObserver, AnyMap, Nearest, PhotonMap, SearchReads};
 
 /// How photons are searched for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +35,34 @@ impl Search {
         self.run_within(Known::NOTHING, map, point, found, eyes)
     }
 
+    /// Finds the photons nearest to each point of a batch. Returns the number of attempts it took, over all points.
+    ///
+    /// Who found too few searches again, together, with twice the radius.
+    pub fn run_all(
+        &self,
+        map: &dyn AnyMap,
+        points: &[[f32; 3]],
+        found: &mut [Nearest],
+        reads: &mut SearchReads,
+    ) -> u32 {
+        let mut radius = if map.is_exact() { self.start.min(self.max_dist) } else { self.max_dist };
+        let mut asking: Vec<([f32; 3], &mut Nearest)> = points.iter().copied().zip(found).collect();
+        let mut attempts = 0;
+        while !asking.is_empty() {
+            if attempts > 0 {
+                reads.again();
+            }
+            attempts += asking.len() as u32;
+            let points: Vec<[f32; 3]> = asking.iter().map(|&(point, _)| point).collect();
+            let mut all: Vec<&mut Nearest> = asking.iter_mut().map(|(_, found)| &mut **found).collect();
+            all.iter_mut().for_each(|found| found.restart(radius * radius));
+            map.nearest_of_all_read(&points, &mut all, reads);
+            asking.retain(|(_, found)| !(found.is_full() || radius >= self.max_dist || found.len() == map.len()));
+            radius = beyond(radius).min(self.max_dist);
+        }
+        attempts
+    }
+
     /// As [`run`](Self::run), where something is known of the answer.
     #[inline]
     pub(super) fn run_within(
@@ -64,9 +92,13 @@ impl Search {
             }
             attempts += 1;
             eyes.again();
-            // Past the square root of the largest number only infinity is left to try.
-            let larger = if radius > 1e18 { f32::INFINITY } else { radius * 2.0 };
+            let larger = beyond(radius);
             radius = if radius < sure { larger.min(sure) } else { larger }.min(self.max_dist);
         }
     }
+}
+
+/// The radius that is tried after one that was too small. Past the square root of the largest number only infinity is left.
+fn beyond(radius: f32) -> f32 {
+    if radius > 1e18 { f32::INFINITY } else { radius * 2.0 }
 }

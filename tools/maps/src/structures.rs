@@ -7,6 +7,7 @@ mod grid;
 mod grid_fixed;
 mod kd;
 mod kdb;
+mod reverse;
 mod vvh;
 mod wide;
 
@@ -27,6 +28,7 @@ pub fn structures() -> Registry<dyn Structure> {
             &grid::Grid,
             &grid_fixed::GridFixed,
             &block_hash::BlockHash,
+            &reverse::Reverse,
             &brute::Brute,
         ],
     );

@@ -64,6 +64,10 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     }
     let (map, building) = build(&args, &photons)?;
     let map = &*map;
+    if rest.carry && map.batch().is_some() {
+        let word = args.map.entry.word();
+        return Err(usage(format!("--carry: `{word}` answers batches of queries, which carry nothing; leave it out")));
+    }
     if rest.waits {
         check_waits(&args, map)?;
     }
