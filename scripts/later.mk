@@ -12,6 +12,7 @@ LATER += specular
 LATER += atlas
 LATER += held-orders
 LATER += reverse
+LATER += spills
 
 later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, order in software, irradiance held beforehand, reverse photon mapping (-j1: some minutes)
 
