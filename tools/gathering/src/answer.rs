@@ -5,7 +5,7 @@ use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::{Access, BlockEncoder, Coding, Region, Waits};
 use pm_formats::{Block, Header, Query, decode_checked};
-use pm_maps::{AccessObserver, AnyMap, Blind, Carry, Nearest, Search, SearchReads, offset_of};
+use pm_maps::{AccessObserver, AnyMap, Blind, Carry, Nearest, Search, SearchReads, WaitingReads, offset_of};
 
 /// What it takes to answer queries; shared by all threads.
 pub struct Answerer<'a> {
@@ -78,6 +78,9 @@ struct Work<'a> {
     of: &'a Answerer<'a>,
     /// The reads of a search that is not one of a batch.
     reads: SearchReads,
+    /// Does the trace say what reads wait for? What each of these does, then.
+    waiting: bool,
+    waits: Vec<Waits>,
     /// Where the coding of walks implies the second touches they need not be remembered.
     implied: bool,
     scratch: Scratch,
@@ -95,6 +98,8 @@ impl<'a> Work<'a> {
         let mut work = Self {
             of,
             reads: SearchReads::default(),
+            waiting: any(|region| region.coding == Coding::Waiting),
+            waits: vec![],
             implied,
             scratch: Scratch::default(),
             encoder: of.regions.map(BlockEncoder::new),
@@ -109,10 +114,7 @@ impl<'a> Work<'a> {
 
     /// What remembers the reads of a search.
     fn observer(&self) -> SearchReads {
-        match self.of.regions.is_some_and(|regions| regions.iter().any(|it| it.coding == Coding::Waiting)) {
-            true => SearchReads::with_waits(),
-            false => SearchReads::with_rereads(self.of.reread && !self.implied),
-        }
+        SearchReads::with_rereads(self.of.reread && !self.implied)
     }
 
     /// Each query by a search of its own.
@@ -125,7 +127,10 @@ impl<'a> Work<'a> {
         for query in queries {
             let known = self.known(query);
             if known.is_none() {
-                self.counts.attempts += u64::from(if watched {
+                self.counts.attempts += u64::from(if self.waiting {
+                    let mut eyes = WaitingReads::new(&mut self.reads, &mut self.waits);
+                    of.find(query.position, &mut carry, &mut found, &mut eyes)
+                } else if watched {
                     of.find(query.position, &mut carry, &mut found, &mut self.reads)
                 } else {
                     of.find(query.position, &mut carry, &mut found, &mut Blind)
@@ -194,9 +199,9 @@ impl<'a> Work<'a> {
         self.counts.accesses += reads.len() as u64 + if self.implied { reads.rereads() } else { 0 };
         if let Some(encoder) = &mut self.encoder {
             encoder.begin(pixels);
-            let mut waits = reads.waits();
+            let mut rest = &self.waits[..];
             for (region, records) in reads.runs() {
-                let waits = waits.as_mut().and_then(|waits| waits.split_off(..records.len()));
+                let waits = if self.waiting { rest.split_off(..records.len()) } else { None };
                 self.of.encode(encoder, region, records, waits);
             }
             encoder.end();

@@ -57,6 +57,7 @@ mod structure;
 mod structures;
 pub mod trial;
 mod vvh;
+mod waiting_reads;
 mod wide;
 
 pub use accuracy::Accuracy;
@@ -80,6 +81,7 @@ pub use start_radius::StartRadius;
 pub use structure::{Setting, Structure};
 pub use structures::{LINE, fastest, structures};
 pub use vvh::VvhTree;
+pub use waiting_reads::WaitingReads;
 pub use wide::{Instructions, WideTree};
 
 #[cfg(test)]

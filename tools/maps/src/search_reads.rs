@@ -1,7 +1,6 @@
 //! What a search read.
 
 use super::{AccessObserver, AnyMap, Nearest};
-use pm_formats::trace::Waits;
 
 /// Remembers the reads of one search.
 #[derive(Default)]
@@ -13,10 +12,6 @@ pub struct SearchReads {
     records: Vec<u32>,
     /// Region and end (in `records`) of each run of reads of one region.
     runs: Vec<(u16, usize)>,
-    /// What each waits for, if that is to be remembered.
-    waits: Option<Vec<Waits>>,
-    /// Does the next read begin another attempt?
-    again: bool,
 }
 
 impl SearchReads {
@@ -24,12 +19,6 @@ impl SearchReads {
     #[must_use]
     pub fn with_rereads(log_rereads: bool) -> Self {
         Self { log_rereads, ..Self::default() }
-    }
-
-    /// An observer that also remembers what each read waits for.
-    #[must_use]
-    pub fn with_waits() -> Self {
-        Self { waits: Some(vec![]), ..Self::default() }
     }
 
     /// Number of second touches, remembered or not.
@@ -50,8 +39,6 @@ impl SearchReads {
         self.examined = 0;
         self.records.clear();
         self.runs.clear();
-        self.waits.iter_mut().for_each(Vec::clear);
-        self.again = false;
     }
 
     /// Number of reads.
@@ -64,12 +51,6 @@ impl SearchReads {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
-    }
-
-    /// What each of the reads waits for, in order; nothing if that is not remembered.
-    #[must_use]
-    pub fn waits(&self) -> Option<&[Waits]> {
-        self.waits.as_deref()
     }
 
     /// The reads in order, cut where the region changes.
@@ -85,31 +66,12 @@ impl SearchReads {
 impl AccessObserver for SearchReads {
     #[inline]
     fn read(&mut self, region: u16, record: u32) {
-        if let Some(waits) = &mut self.waits {
-            let first = std::mem::take(&mut self.again);
-            waits.push(if first { Waits::ALL_BEFORE } else { Waits::NOTHING });
-        }
         self.records.push(record);
         let end = self.records.len();
         match self.runs.last_mut() {
             Some(run) if run.0 == region => run.1 = end,
             _ => self.runs.push((region, end)),
         }
-    }
-
-    #[inline]
-    fn read_after(&mut self, region: u16, record: u32, waits: Waits) {
-        self.read(region, record);
-        if let Some(last) = self.waits.as_mut().and_then(|waits| waits.last_mut())
-            && waits != Waits::NOTHING
-        {
-            *last = waits;
-        }
-    }
-
-    #[inline]
-    fn again(&mut self) {
-        self.again = true;
     }
 
     #[inline]

@@ -1,10 +1,13 @@
 //! Do maps that tell what their reads wait for tell what can be?
 
 use super::{Verdict, forms, photons, random_points};
-use crate::{AnyMap, Nearest, SearchReads, Structure};
+use crate::{Nearest, SearchReads, Structure, WaitingReads};
 use pm_formats::trace::Waits;
 use pm_registry::Registry;
 use std::collections::BTreeMap;
+
+/// How far searches look.
+const RADIUS: f32 = 0.03;
 
 /// Reads are the same where what they wait for is remembered; there is a level above each; and a record that waits for one other
 /// always waits for the same.
@@ -21,13 +24,17 @@ pub fn waits(structures: &Registry<dyn Structure>) -> Verdict {
         // The record that each record waits for.
         let mut parents = BTreeMap::new();
         for photon in photons.iter().step_by(100) {
-            let (waiting, reads) = remembered(&*map, photon.position, SearchReads::with_waits());
-            let (plain, _) = remembered(&*map, photon.position, SearchReads::default());
+            let (mut reads, mut waits) = (SearchReads::default(), vec![]);
+            let mut eyes = WaitingReads::new(&mut reads, &mut waits);
+            map.nearest_seen(photon.position, &mut Nearest::new(50, RADIUS), &mut eyes);
+            let waiting = records(&reads);
+            reads.clear();
+            map.nearest_read(photon.position, &mut Nearest::new(50, RADIUS), &mut reads);
+            let plain = records(&reads);
             form.holds(waiting == plain, || "reads otherwise where what reads wait for is remembered".to_owned())?;
-            let waits = reads.waits().unwrap_or_default();
             form.holds(waits.len() == plain.len(), || format!("{} of {} reads tell", waits.len(), plain.len()))?;
             let mut last = vec![];
-            for (&record, waits) in plain.iter().zip(waits) {
+            for (&record, waits) in plain.iter().zip(&waits) {
                 let level = usize::from(waits.level());
                 form.holds(level <= last.len(), || format!("{record:?} waits for a level that has no reads"))?;
                 if level > 0 && !waits.is_for_all() {
@@ -46,8 +53,6 @@ pub fn waits(structures: &Registry<dyn Structure>) -> Verdict {
 }
 
 /// Region and record of each read of a search.
-fn remembered(map: &dyn AnyMap, point: [f32; 3], mut reads: SearchReads) -> (Vec<(u16, u32)>, SearchReads) {
-    map.nearest_read(point, &mut Nearest::new(50, 0.03), &mut reads);
-    let records = reads.runs().flat_map(|(region, records)| records.iter().map(move |&record| (region, record)));
-    (records.collect(), reads)
+fn records(reads: &SearchReads) -> Vec<(u16, u32)> {
+    reads.runs().flat_map(|(region, records)| records.iter().map(move |&record| (region, record))).collect()
 }
