@@ -106,11 +106,6 @@ impl Costs {
         self.on_chip = self.on_chip.max(on_chip);
     }
 
-    /// `n` queries of a group did not wait: they were answered as they were cast.
-    pub const fn answered_at_once(&mut self, n: u64) {
-        self.deferred -= n;
-    }
-
     /// So many queries were cast once more, since nothing was kept of them.
     pub const fn cast_again(&mut self, queries: u64) {
         self.again += queries * RAYS_OF_A_QUERY;

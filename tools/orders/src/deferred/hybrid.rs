@@ -13,6 +13,7 @@
 //! A query that waits is written once and read once. One that is resident is not; what it reads of the map is counted by the
 //! cache, as with every order. With `--casts` all queries of a batch are cast so many times, nothing kept of them but by
 //! the last cast, and other cells are resident each time: two rays for each query and cast but one, told as `rays_cast_again`.
+//! Compact records count two rays for every query there, those answered at once included, which is more than they need.
 
 mod join;
 mod residents;

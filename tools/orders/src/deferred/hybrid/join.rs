@@ -17,16 +17,10 @@ pub(super) struct Join {
     arrivals: Arrivals,
     by_rank: Sorted<Keys>,
     came: u64,
-    totals: Totals,
+    /// Queries of the samples of all batches.
+    sampled: u64,
     announce: Rc<dyn Fn()>,
     costs: Costs,
-}
-
-/// Over all batches.
-#[derive(Default)]
-struct Totals {
-    at_once: u64,
-    sampled: u64,
 }
 
 impl Join {
@@ -44,8 +38,7 @@ impl Join {
         let limits = Limits { memory, folder, announce: Box::new(move || told()) };
         // What is spilled is charged here.
         let by_rank = Sorted::new(keys, Charge::MergeSort, store, 0, limits);
-        let (sample, totals) = (Sample::default(), Totals::default());
-        Self { residents, sample, arrivals, by_rank, came: 0, totals, announce, costs }
+        Self { residents, sample: Sample::default(), arrivals, by_rank, came: 0, sampled: 0, announce, costs }
     }
 
     /// A batch of so many queries is done, of which so many did not wait.
@@ -60,11 +53,8 @@ impl Join {
             let buffers = (cells + 1).min(store.fan()) * BURST_BUFFER;
             self.costs.group(n, waiting * store.passes_to_part(cells), buffers);
         }
-        self.costs.answered_at_once(at_once);
         self.costs.cast_again(n * u64::from(casts - 1));
-        self.totals.at_once += at_once;
-        self.costs.tell("answered_at_once", Number::Count(self.totals.at_once));
-        self.costs.tell(measure::PREPASS_RAYS, Number::Count(self.totals.sampled * RAYS_OF_A_SAMPLE));
+        self.costs.tell(measure::PREPASS_RAYS, Number::Count(self.sampled * RAYS_OF_A_SAMPLE));
     }
 }
 
@@ -91,7 +81,7 @@ impl Reorder for Join {
 
     fn drain(&mut self, out: &mut Outlet<'_>) -> pm_formats::Result<()> {
         let sample = self.sample.take();
-        self.totals.sampled += sample.len() as u64;
+        self.sampled += sample.len() as u64;
         let (casts, cells) = self.residents.borrow_mut().choose(&sample);
         let mut at_once = 0;
         let (residents, by_rank) = (&self.residents, &mut self.by_rank);

@@ -74,7 +74,6 @@ fn only_what_waits_is_charged_and_every_further_cast() {
     let (_, order) = pass(residents(20, 1), 1, &CELLS, 1 << 20);
     assert_eq!(told(&order, measure::SPILLED_WRITTEN), 3.0 * 44.0);
     assert_eq!(told(&order, measure::SPILLED_READ), 3.0 * 44.0);
-    assert_eq!(told(&order, "answered_at_once"), 7.0);
     assert_eq!(told(&order, measure::PREPASS_RAYS), 2.0 * 10.0);
     assert!(told(&order, measure::RAYS_CAST_AGAIN).is_nan());
     // Seven nodes, four cells; of the buffers a store this small has two.
