@@ -17,10 +17,11 @@ const STREAMS: [(&str, u64, &str); 5] = [
     ("windows.pmt", 53, "cb3eed7fb799cb3d75116cb46ce817d4"),
 ];
 
-/// Regions that are coded together, and walks that are apart, in their order and sorted: kept of version 2 only.
-const STREAMS_OF_VERSION_2: [(&str, u64, &str); 4] = [
+/// Regions that are coded together, without and with what reads wait for, and walks that are apart, in their order and sorted: kept of version 2 only.
+const STREAMS_OF_VERSION_2: [(&str, u64, &str); 5] = [
     ("apart.pmt", 95, "f492ed74e02a3fdd198bad03ff10dfd1"),
     ("turns.pmt", 95, "f5025c3c9fc0437901565e0c4da10cee"),
+    ("waits.pmt", 95, "b9bfde3a0d09ad82728c3a1ad178ec12"),
     ("walks.pmt", 4616, "fab8562fa166365121bc82b4f1295549"),
     ("walks-sorted.pmt", 4616, "fab8562fa166365121bc82b4f1295549"),
 ];

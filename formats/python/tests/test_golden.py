@@ -23,6 +23,7 @@ STREAMS = {
 STREAMS_OF_VERSION_2 = {
     "apart.pmt": (95, 1351, "f492ed74e02a3fdd198bad03ff10dfd1"),
     "turns.pmt": (95, 4012, "f5025c3c9fc0437901565e0c4da10cee"),
+    "waits.pmt": (95, 1381, "b9bfde3a0d09ad82728c3a1ad178ec12"),
     "walks.pmt": (4616, 142689, "fab8562fa166365121bc82b4f1295549"),
     "walks-sorted.pmt": (4616, 142689, "fab8562fa166365121bc82b4f1295549"),
 }

@@ -69,6 +69,7 @@ fn files(folder: &Path, ending: &str) -> Vec<Vec<u8>> {
 fn all_streams() -> Vec<Vec<u8>> {
     let mut all = files(&root().join("formats/tests/golden"), "");
     all.extend([streams::photons(), streams::unrounded(), streams::queries(None, true), streams::trace(None)]);
+    all.push(streams::waits());
     all.extend([streams::trace(None), streams::walks()].map(|trace| archive(&trace)));
     all
 }

@@ -1,6 +1,6 @@
 //! Small streams of each kind, whole and in parts.
 
-use pm_formats::trace::{Access, BlockEncoder, Coding, TraceWriter, lay_out};
+use pm_formats::trace::{Access, BlockEncoder, Coding, TraceWriter, Waits, lay_out};
 use pm_formats::vocabulary::meaning;
 use pm_formats::{
     BlockMeta, Header, IrradianceRay, IrradianceRecord, Material, Photon, PixelWeight, Query, Record, RecordWriter,
@@ -106,6 +106,24 @@ pub(super) fn trace(part: Option<&str>) -> Vec<u8> {
         let (block, tally) = encoder.finish(BlockMeta { batch, ..BlockMeta::default() }).expect("a block");
         writer.write(&block, tally).expect("memory takes all");
     }
+    writer.finish(vec![]).expect("memory takes all")
+}
+
+/// A trace whose reads say what they wait for.
+pub(super) fn waits() -> Vec<u8> {
+    let regions = lay_out([16, 64].map(|size| ("blocks".to_owned(), 6400, size, Coding::Waiting)));
+    let header = Header { regions, ..header(None) };
+    let mut writer = TraceWriter::new(vec![], &header).expect("a header");
+    let mut encoder = BlockEncoder::new(&header.regions);
+    for search in 0..3 {
+        encoder.begin(&[search]);
+        encoder.waiting_records(0, &[9, 10 + search], &[Waits::NOTHING, Waits::last_above(1)]);
+        encoder.waiting_records(1, &[3], &[Waits::all_above(2)]);
+        encoder.waiting_records(0, &[9], &[Waits::ALL_BEFORE]);
+        encoder.end();
+    }
+    let (block, tally) = encoder.finish(BlockMeta::default()).expect("a block");
+    writer.write(&block, tally).expect("memory takes all");
     writer.finish(vec![]).expect("memory takes all")
 }
 

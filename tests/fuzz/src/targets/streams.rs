@@ -1,7 +1,7 @@
 //! Streams of any kind, by every reader there is.
 
 use super::mend;
-use pm_formats::trace::{Access, Region, TraceReader, TraceSink, TraceWriter};
+use pm_formats::trace::{Access, Region, TraceReader, TraceSink, TraceWriter, Waits};
 use pm_formats::{
     BlockReader, Photon, Query, Record, RecordReader, Section, StreamKind, UnroundedPhoton, as_commands,
     decode_irradiance, decode_weights,
@@ -16,6 +16,10 @@ pub(super) struct Sum {
 }
 
 impl TraceSink for Sum {
+    fn waits(&mut self, waits: Waits) {
+        self.sum = self.sum.rotate_left(3) ^ u64::from(waits.level()) << 1 ^ u64::from(waits.is_for_all());
+    }
+
     fn access(&mut self, access: Access) {
         let Access { region, offset, len, .. } = access;
         let within = self.regions.is_empty() || self.regions[usize::from(region)].holds(offset, len);
