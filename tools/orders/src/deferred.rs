@@ -13,6 +13,7 @@ mod morton;
 mod parameters;
 mod partition;
 mod random;
+mod residents;
 mod snowplow;
 
 use super::Order;

@@ -14,12 +14,10 @@ mod waiting;
 
 use crate::trial::{self, Form, queries};
 use crate::{Per, Store, StoredQuery, orders};
-use machine::Machine;
+use machine::{Machine, UNIT};
 use pm_formats::vocabulary::measure;
-use pm_formats::{BlockMeta, Bounds, Query};
+use pm_formats::{BlockMeta, Query};
 use pm_random::Random;
-
-const UNIT: Bounds = Bounds { min: [0.0; 3], max: [1.0; 3] };
 
 /// Queries as they left, and bytes on chip, written and read.
 type Ran = (Vec<Query>, [u64; 3]);

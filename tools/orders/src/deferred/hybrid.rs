@@ -16,11 +16,9 @@
 //! Compact records count two rays for every query there, those answered at once included, which is more than they need.
 
 mod join;
-mod residents;
-
-pub(super) use residents::Residents;
 
 use super::parameters::{LEAF_PHOTONS, PHOTONS};
+use super::residents::Residents;
 use crate::{Order, Reorder, Setting, Store};
 use join::Join;
 use pm_registry::{Domain, Parameter, ParameterError, Values};

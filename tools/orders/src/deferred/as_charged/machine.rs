@@ -2,10 +2,13 @@
 
 use crate::{BURST_BUFFER, Store, StoredQuery};
 use bytemuck::Zeroable as _;
-use pm_formats::Query;
+use pm_formats::{Bounds, Query};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+
+/// The scene that all queries of a trial lie in.
+pub(super) const UNIT: Bounds = Bounds { min: [0.0; 3], max: [1.0; 3] };
 
 /// Bytes that go to memory or come from there at a time: half a buffer.
 const BURST: usize = BURST_BUFFER as usize / 2;

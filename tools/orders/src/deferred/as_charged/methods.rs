@@ -1,11 +1,11 @@
 //! Which method runs which order.
 
-use super::machine::Machine;
+use super::machine::{Machine, UNIT};
 use super::parting::{Key, by_casts, by_cells, by_partitions};
 use super::sorting::sort;
-use super::{UNIT, linking, waiting};
+use super::{linking, waiting};
 use crate::deferred::hint::{self, Key as Hint};
-use crate::deferred::hybrid::Residents;
+use crate::deferred::residents::Residents;
 use crate::trial::{Form, photons};
 use crate::{Keys, MedianSplit};
 use pm_curves::{Grid, hilbert_keys, morton_keys};

@@ -3,7 +3,7 @@
 use super::machine::{Machine, Writer};
 use super::sorting::sort;
 use crate::BURST_BUFFER;
-use crate::deferred::hybrid::Residents;
+use crate::deferred::residents::Residents;
 use crate::partitions::Partitions;
 use crate::sample::Sample;
 use pm_formats::Query;

@@ -1,7 +1,7 @@
 //! A batch at work: a sample first, then the casts, then the cells that were written.
 
-use super::Residents;
 use crate::arrivals::Arrivals;
+use crate::deferred::residents::Residents;
 use crate::sample::{RAYS_OF_A_SAMPLE, Sample};
 use crate::{BURST_BUFFER, Charge, Costs, Keys, Limits, Outlet, Reorder, Sorted, Store};
 use pm_formats::vocabulary::measure;

@@ -7,7 +7,7 @@ use std::cmp::Reverse;
 const CELL_BYTES: u64 = 8;
 
 /// The cells, and the casts in which they are resident.
-pub(in crate::deferred) struct Residents {
+pub(super) struct Residents {
     split: MedianSplit,
     /// Photons of each cell.
     photons: Vec<u64>,
@@ -20,7 +20,7 @@ pub(in crate::deferred) struct Residents {
 
 impl Residents {
     /// Cells of at most `leaf` photons; for each of so many casts those are resident that hold `most` photons together.
-    pub(in crate::deferred) fn new(photons: Vec<[f32; 3]>, leaf: usize, most: u64, casts: u32) -> Self {
+    pub(super) fn new(photons: Vec<[f32; 3]>, leaf: usize, most: u64, casts: u32) -> Self {
         let split = MedianSplit::new(photons.clone(), leaf);
         let mut in_cells = vec![0; split.cells() as usize];
         photons.iter().for_each(|&photon| in_cells[split.cell(photon) as usize] += 1);
@@ -28,18 +28,18 @@ impl Residents {
     }
 
     /// Bytes of tables on chip.
-    pub(in crate::deferred) fn bytes(&self) -> u64 {
+    pub(super) fn bytes(&self) -> u64 {
         self.split.bytes() + self.photons.len() as u64 * CELL_BYTES
     }
 
     /// The cell that a point lies in.
-    pub(in crate::deferred) fn cell(&self, point: [f32; 3]) -> u32 {
+    pub(super) fn cell(&self, point: [f32; 3]) -> u32 {
         self.split.cell(point)
     }
 
     /// Chooses by the cells of the queries in a sample. Returns the number of casts that this takes, and of cells that are
     /// resident in none of them.
-    pub(in crate::deferred) fn choose(&mut self, sample: &[u32]) -> (u32, u64) {
+    pub(super) fn choose(&mut self, sample: &[u32]) -> (u32, u64) {
         let mut sampled = vec![0u64; self.photons.len()];
         sample.iter().for_each(|&cell| sampled[cell as usize] += 1);
         let mut best: Vec<usize> = (0..self.photons.len()).collect();
@@ -63,12 +63,12 @@ impl Residents {
     }
 
     /// When queries at a point leave: in the order of these numbers.
-    pub(in crate::deferred) fn rank(&self, point: [f32; 3]) -> u32 {
+    pub(super) fn rank(&self, point: [f32; 3]) -> u32 {
         self.ranks[self.cell(point) as usize]
     }
 
     /// Are queries of this rank answered as they are cast?
-    pub(in crate::deferred) const fn at_once(&self, rank: u32) -> bool {
+    pub(super) const fn at_once(&self, rank: u32) -> bool {
         rank < self.casts
     }
 }
