@@ -46,7 +46,11 @@ fn it_is_in_the_help_the_errors_and_the_documentation() {
     let told = "rows: axis along which the photons are sorted";
     assert!(help.contains("Photons in a row, sorted by one coordinate") && help.contains(told), "{help}");
     let refused = run("--map row");
-    assert!(refused.code() == 2 && refused.said().contains("reverse, brute, rows, brick, cell-cache]"), "{}", refused.said());
+    assert!(
+        refused.code() == 2 && refused.said().contains("reverse, brute, rows, brick, cell-cache]"),
+        "{}",
+        refused.said()
+    );
     assert_eq!(run("--axis 1").said(), "--axis is for --map rows, not for kd: leave --axis out");
     assert!(structures().table().ends_with("| `rows` | Photons in a row, sorted by one coordinate | `--axis` |\n"));
 }
