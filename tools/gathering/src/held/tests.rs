@@ -33,6 +33,14 @@ pub(super) fn samples_by_name() -> Vec<(&'static str, Vec<Sample>)> {
     ]
 }
 
+/// The same irradiance, but for RGBE's rounding, which may go by other random numbers; or none, both.
+pub(super) fn are_alike(one: Option<[f64; 3]>, other: Option<[f64; 3]>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => (0..3).all(|i| (one[i] - other[i]).abs() <= other[0] / 64.0),
+        (one, other) => one == other,
+    }
+}
+
 /// Where to look: at samples, beside them and elsewhere, with narrow and wide footprints.
 pub(super) fn places(samples: &[Sample]) -> Vec<Place> {
     let at = samples.iter().step_by((samples.len() / 25).max(1));

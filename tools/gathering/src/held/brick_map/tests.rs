@@ -1,7 +1,7 @@
 //! Does the octree find the voxel that looking at all samples finds?
 
 use super::*;
-use crate::held::tests::{places, samples_by_name};
+use crate::held::tests::{are_alike, places, samples_by_name};
 
 /// The samples of the cube that holds a point after so many halvings.
 fn within<'a>(samples: &'a [Sample], cube: &Cube, point: [f32; 3], halvings: u32) -> Vec<&'a Sample> {
@@ -27,12 +27,7 @@ fn the_voxel_is_that_of_looking_at_all_samples() {
                 Voxel::of(&within(&samples, &cube, place.point, halvings), cell, 1).at(place.point, place.normal, cell)
             });
             let irradiance = map.find(&place, 3, &mut SearchReads::default());
-            // Rounded by other random numbers.
-            let same = match (irradiance, expected) {
-                (Some(one), Some(other)) => (0..3).all(|i| (one[i] - other[i]).abs() <= other[0] / 64.0),
-                (one, other) => one == other,
-            };
-            assert!(same, "{name}, {place:?}: {irradiance:?} for {expected:?}");
+            assert!(are_alike(irradiance, expected), "{name}, {place:?}: {irradiance:?} for {expected:?}");
             found += u32::from(irradiance.is_some());
         }
     }

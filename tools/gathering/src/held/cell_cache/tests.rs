@@ -1,7 +1,7 @@
 //! Does the table find the cell that looking at all samples finds?
 
 use super::*;
-use crate::held::tests::{places, samples_by_name};
+use crate::held::tests::{are_alike, places, samples_by_name};
 
 #[test]
 fn the_cell_is_that_of_looking_at_all_samples() {
@@ -22,12 +22,7 @@ fn the_cell_is_that_of_looking_at_all_samples() {
             let wanted = (0..=last).find(|&it| cube.width(it) <= f64::from(place.footprint)).unwrap_or(last);
             let expected = (wanted..=last).chain((0..wanted).rev()).find_map(level);
             let irradiance = cache.find(&place, 0, &mut SearchReads::default());
-            // Rounded by other random numbers.
-            let same = match (irradiance, expected) {
-                (Some(one), Some(other)) => (0..3).all(|i| (one[i] - other[i]).abs() <= other[0] / 64.0),
-                (one, other) => one == other,
-            };
-            assert!(same, "{name}, {place:?}: {irradiance:?} for {expected:?}");
+            assert!(are_alike(irradiance, expected), "{name}, {place:?}: {irradiance:?} for {expected:?}");
             found += u32::from(irradiance.is_some());
         }
     }
