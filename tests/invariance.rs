@@ -212,6 +212,7 @@ fn every_order_makes_the_same_searches() {
         "brute",
         // Larger batches hold other queries in another order, and have a search in common.
         "reverse --batch 1",
+        "treelets --treelet 2000 --batch 1",
     ]) {
         let mut tallies: Vec<Tally> = vec![];
         for name in &names {
@@ -264,6 +265,8 @@ fn the_picture_is_the_same_to_the_last_bit() {
         "--map grid-fixed --slots 2000",
         "--map reverse --batch 37 --start-radius inf -t 2",
         "--map reverse --batch 4096 --candidates memory --line 320",
+        "--map treelets --treelet 1000 -t 2",
+        "--map treelets --treelet 100 --batch 37 --waiting chip",
         "--max-dist 1e9",
     ] {
         same_bytes(options, &expected, &picture(&format!("q0-2.pmq {options}")));

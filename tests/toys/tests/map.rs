@@ -47,7 +47,7 @@ fn it_is_in_the_help_the_errors_and_the_documentation() {
     assert!(help.contains("Photons in a row, sorted by one coordinate") && help.contains(told), "{help}");
     let refused = run("--map row");
     assert!(
-        refused.code() == 2 && refused.said().contains("reverse, brute, rows, brick, cell-cache]"),
+        refused.code() == 2 && refused.said().contains("reverse, treelets, brute, rows, brick, cell-cache]"),
         "{}",
         refused.said()
     );

@@ -8,6 +8,7 @@ mod grid_fixed;
 mod kd;
 mod kdb;
 mod reverse;
+mod treelets;
 mod vvh;
 mod wide;
 
@@ -29,6 +30,7 @@ pub fn structures() -> Registry<dyn Structure> {
             &grid_fixed::GridFixed,
             &block_hash::BlockHash,
             &reverse::Reverse,
+            &treelets::InTreelets,
             &brute::Brute,
         ],
     );

@@ -45,7 +45,7 @@ fn where_a_search_starts_changes_reads_and_not_neighbours() {
 #[test]
 fn exact_structures_are_those_that_say_so() {
     let exact: Vec<_> = structures().iter().filter(|it| it.is_exact()).map(|it| it.word()).collect();
-    assert_eq!(exact, ["kd", "bucket-kd", "wide", "vvh", "kdb", "grid", "reverse", "brute"]);
+    assert_eq!(exact, ["kd", "bucket-kd", "wide", "vvh", "kdb", "grid", "reverse", "treelets", "brute"]);
     // And where nothing is lost, a grid of fixed cells.
     let photons = photons(random_points(3000, |[x, y, _]| [x, 0.0, y]));
     let is_exact = |line| build(line, &photons, 10).is_exact();
