@@ -14,6 +14,11 @@ LATER += held-orders
 LATER += reverse
 LATER += treelets
 LATER += spills
+LATER += bins
+LATER += seeds
+LATER += views
+LATER += direct
+LATER += cells
 
 later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, latency, private caches, mirrors, order in software, irradiance held beforehand, reverse photon mapping, queues at treelets (-j1: some minutes)
 
