@@ -12,6 +12,7 @@ mod leaf;
 mod morton;
 mod parameters;
 mod partition;
+mod radius;
 mod random;
 mod residents;
 mod snowplow;
@@ -34,6 +35,7 @@ pub fn orders() -> Registry<dyn Order> {
             &partition::Partition,
             &cells::Cells,
             &hybrid::Hybrid,
+            &radius::Radius,
             &snowplow::Snowplow,
             &buffered::Buffered,
         ],

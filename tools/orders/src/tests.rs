@@ -75,7 +75,7 @@ fn every_order_keeps_to_its_store() {
             match name.split(' ').next() {
                 // Addresses of 37 buckets beside the store.
                 Some("hashed") if name == "hashed" => assert_eq!(tables, 37 * 8),
-                Some("hashed" | "leaf" | "cells" | "hybrid" | "buffered") => assert!(tables > 0, "{name}"),
+                Some("hashed" | "leaf" | "cells" | "hybrid" | "radius" | "buffered") => assert!(tables > 0, "{name}"),
                 _ => assert_eq!(tables, 0, "{name}"),
             }
             let written = measure(&order, measure::SPILLED_WRITTEN);
@@ -164,7 +164,7 @@ fn what_does_nothing_is_refused() {
         ("leaf", "leaf needs --photons: give --photons FILE"),
         (
             "hashed --leaf-photons 3",
-            "--leaf-photons is for leaf, cells, hybrid, buffered, not for hashed: leave --leaf-photons out",
+            "--leaf-photons is for leaf, cells, hybrid, radius, buffered, not for hashed: leave --leaf-photons out",
         ),
     ] {
         assert_eq!(orders().choose(line).err().map(|error| error.to_string()).as_deref(), Some(said));

@@ -5,6 +5,7 @@ use super::parting::{Key, by_casts, by_cells, by_partitions};
 use super::sorting::sort;
 use super::{linking, waiting};
 use crate::deferred::hint::{self, Key as Hint};
+use crate::deferred::radius::Octaves;
 use crate::deferred::residents::Residents;
 use crate::trial::{Form, photons};
 use crate::{Keys, MedianSplit};
@@ -32,6 +33,14 @@ pub(super) fn run(form: &Form, machine: &mut Machine, queries: &[Query]) {
         "cells" => {
             let split = split(machine, count("leaf-photons"));
             by_cells(machine, queries, n, split.cells().into(), &|query| split.cell(query.position));
+        }
+        "radius" => {
+            let leaf = count("leaf-photons");
+            // The tree, and a byte for each of its cells.
+            let cells = u64::from(split(machine, leaf).cells());
+            machine.chip.reserve(cells);
+            let octaves = Octaves::new(photons(), leaf as usize);
+            by_cells(machine, queries, n, octaves.parts().into(), &|query| octaves.part(query));
         }
         "hybrid" => {
             let leaf = count("leaf-photons");
