@@ -43,6 +43,7 @@ mod streams;
 mod support;
 mod sweep;
 mod tidy;
+mod treelets;
 mod variants;
 mod view;
 mod windows;
