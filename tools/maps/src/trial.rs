@@ -6,12 +6,16 @@
 //! pm_maps::trial::all(&structures).unwrap();
 //! ```
 
+#[cfg(test)]
+mod batches;
 mod cases;
 mod form;
 mod neighbours;
 mod reads;
 mod waits;
 
+#[cfg(test)]
+pub(crate) use batches::batch_finds_what_each_query_finds;
 pub use cases::{cases, photons, query_points, random_points};
 pub use form::{Form, forms};
 pub use neighbours::{hints, neighbours};

@@ -1,8 +1,8 @@
 //! Is a batch answered as its queries are one by one, and are the photons read once for all of them?
 
 use super::*;
-use crate::trial::{cases, photons, query_points, random_points};
-use crate::{BruteForce, Search, SearchReads};
+use crate::trial::{batch_finds_what_each_query_finds, cases, photons, query_points, random_points};
+use crate::{Search, SearchReads};
 
 fn built(photons: &[Photon], batch: usize, candidates: Candidates) -> ReverseMap {
     ReverseMap::build(photons, 128, batch, (10, candidates)).unwrap()
@@ -12,20 +12,12 @@ fn built(photons: &[Photon], batch: usize, candidates: Candidates) -> ReverseMap
 fn a_batch_finds_what_looking_at_all_photons_finds_for_each_query() {
     for (name, positions) in cases() {
         let photons = photons(positions.iter().copied());
-        let oracle = BruteForce::build(&photons).unwrap();
-        let points = query_points(&positions);
         for candidates in [Candidates::Chip, Candidates::Memory] {
-            let map = built(&photons, points.len(), candidates);
+            let map = built(&photons, query_points(&positions).len(), candidates);
             for search in
                 [Search::new(10, f32::INFINITY), Search::new(10, 0.05), Search { start: 0.01, ..Search::new(10, 0.3) }]
             {
-                let mut found: Vec<_> = points.iter().map(|_| Nearest::new(10, 0.0)).collect();
-                search.run_all(&map, &points, &mut found, &mut SearchReads::default());
-                for (point, found) in points.iter().zip(&found) {
-                    let mut expected = Nearest::new(10, 0.0);
-                    search.run(&oracle, *point, &mut expected, &mut crate::Blind);
-                    assert_eq!(found.sorted(), expected.sorted(), "{name}, {search:?}, {point:?}");
-                }
+                batch_finds_what_each_query_finds(name, &map, &positions, &search);
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Do searches that wait find what they would by themselves, in pieces that fit, and are they charged for what they carry?
 
 use super::*;
-use crate::trial::{cases, photons, query_points, random_points};
-use crate::{BruteForce, Search, SearchReads};
+use crate::trial::{batch_finds_what_each_query_finds, cases, photons, random_points};
+use crate::{Search, SearchReads};
 
 const OPTIONS: TreeletOptions =
     TreeletOptions { treelet: 300, batch: 4096, waiting: Waiting::Memory, line: 128, k: 10 };
@@ -19,18 +19,10 @@ fn reads(map: &Treelets, points: &[[f32; 3]], k: usize) -> Vec<(u16, u32)> {
 fn a_batch_finds_what_looking_at_all_photons_finds_for_each_query() {
     for (name, positions) in cases() {
         let photons = photons(positions.iter().copied());
-        let oracle = BruteForce::build(&photons).unwrap();
-        let points = query_points(&positions);
         for treelet in [20, 60, 300, 1 << 20] {
             let map = Treelets::build(&photons, TreeletOptions { treelet, ..OPTIONS }).unwrap();
             for search in [Search::new(10, f32::INFINITY), Search { start: 0.01, ..Search::new(10, 0.3) }] {
-                let mut found: Vec<_> = points.iter().map(|_| Nearest::new(10, 0.0)).collect();
-                search.run_all(&map, &points, &mut found, &mut SearchReads::default());
-                for (point, found) in points.iter().zip(&found) {
-                    let mut expected = Nearest::new(10, 0.0);
-                    search.run(&oracle, *point, &mut expected, &mut crate::Blind);
-                    assert_eq!(found.sorted(), expected.sorted(), "{name}, {treelet}, {search:?}, {point:?}");
-                }
+                batch_finds_what_each_query_finds(&format!("{name}, {treelet}"), &map, &positions, &search);
             }
         }
     }
