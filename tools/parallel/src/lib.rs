@@ -1,7 +1,8 @@
 //! Work on many threads with results in order: what is done never depends on how many there are.
 
-use crossbeam_channel::bounded;
-use std::collections::BTreeMap;
+mod desk;
+
+use desk::{Closing, Desk};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::thread::Builder;
 
@@ -20,22 +21,18 @@ pub fn in_order<I: Send, O: Send, E>(
     if threads <= 1 {
         return alone(&mut next, &work, &mut take);
     }
-    let in_flight = 3 * threads as u64;
-    let (job_sender, jobs) = bounded::<(u64, I)>(3 * threads);
-    let (result_sender, results) = bounded(3 * threads);
+    let desk = Desk::new(3 * threads);
     std::thread::scope(|scope| {
+        // Closed on every way out, so that the threads end.
+        let _closing = Closing(&desk);
         let mut given = 0;
         // Those that were given and left no memory for their work would be the end of all.
         let most = (0..=threads).rev().find(|&given| is_room(given * A_THREADS_ROOM)).unwrap_or(0);
         for _ in 0..most {
-            let (jobs, results, work) = (jobs.clone(), result_sender.clone(), &work);
-            let spawned = Builder::new().spawn_scoped(scope, move || {
-                for (number, job) in jobs {
+            let spawned = Builder::new().spawn_scoped(scope, || {
+                while let Some((number, job)) = desk.job() {
                     // A panic must reach the caller, who would otherwise wait for this result for ever.
-                    let result = catch_unwind(AssertUnwindSafe(|| work(job)));
-                    if results.send((number, result)).is_err() {
-                        break;
-                    }
+                    desk.done(number, catch_unwind(AssertUnwindSafe(|| work(job))));
                 }
             });
             if spawned.is_err() {
@@ -46,15 +43,12 @@ pub fn in_order<I: Send, O: Send, E>(
         if given == 0 {
             return alone(&mut next, &work, &mut take);
         }
-        // Dropped on every way out, so that the threads end.
-        let (job_sender, results) = (job_sender, results);
         let (mut sent, mut taken, mut more) = (0, 0, true);
-        let mut early = BTreeMap::new();
         loop {
-            while more && sent - taken < in_flight {
+            while more && sent - taken < desk.slots {
                 match next()? {
                     Some(job) => {
-                        job_sender.send((sent, job)).expect("the threads live as long as the sender");
+                        desk.put(sent, job);
                         sent += 1;
                     }
                     None => more = false,
@@ -63,12 +57,9 @@ pub fn in_order<I: Send, O: Send, E>(
             if taken == sent {
                 return Ok(());
             }
-            let (number, result) = results.recv().expect("a job is under way");
-            early.insert(number, result.unwrap_or_else(|panic| resume_unwind(panic)));
-            while let Some(result) = early.remove(&taken) {
-                taken += 1;
-                take(result)?;
-            }
+            let result = desk.result(taken).unwrap_or_else(|panic| resume_unwind(panic));
+            taken += 1;
+            take(result)?;
         }
     })
 }

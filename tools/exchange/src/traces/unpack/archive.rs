@@ -61,7 +61,7 @@ impl Archive {
             if entry.encrypted() {
                 return Err(bad_input("the zip archive is encrypted: unpack it"));
             }
-            names.push(entry.name().map_err(damaged)?.into_owned());
+            names.push(entry.name().to_owned());
             let begin = entry.data_start().ok_or_else(|| bad_input("the compressed input (zip) is damaged"))?;
             parts.push(Part { begin, compressed: entry.compressed_size(), deflated, checksum: entry.crc32() });
         }
