@@ -6,7 +6,7 @@ mod specimens;
 use crate::streams::check;
 use crate::support::{Folder, Outcome};
 use pm_formats::StreamKind;
-use specimens::{specimen, table_of};
+use specimens::{specimen, table_of, waiting_trace};
 
 /// The program that takes a kind of stream for its work, reading it from standard input.
 fn consumer(kind: StreamKind) -> &'static str {
@@ -39,8 +39,12 @@ fn refused(outcome: &Outcome, what: &str) {
 }
 
 fn cut_everywhere(kind: StreamKind) {
-    let (folder, stream) = (folder(), specimen(kind));
-    let _ = folder.feed(consumer(kind), &stream).ok();
+    cut_at_every_byte(kind, &specimen(kind));
+}
+
+fn cut_at_every_byte(kind: StreamKind, stream: &[u8]) {
+    let folder = folder();
+    let _ = folder.feed(consumer(kind), stream).ok();
     for len in 0..stream.len() {
         for program in [consumer(kind), "pm-view --check"] {
             refused(&folder.feed(program, &stream[..len]), &format!("cut to {len} of {} bytes", stream.len()));
@@ -55,11 +59,15 @@ fn a_part_of_photons_is_cut_everywhere_and_any_bit_of_it_flipped() {
 }
 
 fn flip_a_bit_of_every_byte(kind: StreamKind) {
-    let (folder, stream) = (folder(), specimen(kind));
+    flip_a_bit_each(kind, &specimen(kind));
+}
+
+fn flip_a_bit_each(kind: StreamKind, stream: &[u8]) {
+    let folder = folder();
     for at in 0..stream.len() {
         // Each of the eight bits gets its turn.
         let bit = (at * 5 + at / 8) % 8;
-        let mut flipped = stream.clone();
+        let mut flipped = stream.to_vec();
         flipped[at] ^= 1 << bit;
         refused(&folder.feed(consumer(kind), &flipped), &format!("bit {bit} of byte {at} flipped"));
     }
@@ -96,19 +104,29 @@ fn traces_with_a_flipped_bit_are_refused() {
 }
 
 #[test]
+fn a_trace_that_says_what_reads_wait_for_is_cut_everywhere_and_any_bit_of_it_flipped() {
+    let stream = waiting_trace();
+    assert_ne!(stream, specimen(StreamKind::Trace));
+    cut_at_every_byte(StreamKind::Trace, &stream);
+    flip_a_bit_each(StreamKind::Trace, &stream);
+}
+
+#[test]
 fn the_library_refuses_every_cut_and_every_flipped_bit() {
-    for kind in [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace] {
-        let mut stream = specimen(kind);
+    let waiting = ("a trace of what waits".to_owned(), waiting_trace());
+    let plain = [StreamKind::Photons, StreamKind::Queries, StreamKind::Trace];
+    let plain = plain.map(|kind| (format!("{kind:?}"), specimen(kind)));
+    for (kind, mut stream) in plain.into_iter().chain([waiting]) {
         assert!(check(&stream).unwrap().records >= 12);
         for len in 0..stream.len() {
             let error = check(&stream[..len]).expect_err("a cut stream");
-            assert!(error.is_damage(), "{kind:?} cut to {len}: {error}");
+            assert!(error.is_damage(), "{kind} cut to {len}: {error}");
         }
         for at in 0..stream.len() {
             for bit in 0..8 {
                 stream[at] ^= 1 << bit;
-                let error = check(&stream).map_or_else(Some, |tally| panic!("{kind:?} {at}:{bit} passes as {tally:?}"));
-                assert!(error.as_ref().is_some_and(pm_formats::Error::is_damage), "{kind:?} {at}:{bit}: {error:?}");
+                let error = check(&stream).map_or_else(Some, |tally| panic!("{kind} {at}:{bit} passes as {tally:?}"));
+                assert!(error.as_ref().is_some_and(pm_formats::Error::is_damage), "{kind} {at}:{bit}: {error:?}");
                 stream[at] ^= 1 << bit;
             }
         }

@@ -1,8 +1,7 @@
 //! Whole streams of each kind, so short that every byte can be tried.
 
 use crate::support::Folder;
-use pm_formats::trace::{BlockEncoder, TraceWriter, lay_out};
-use pm_formats::trace::{Coding, Region};
+use pm_formats::trace::{BlockEncoder, Coding, Region, TraceWriter, Waits, lay_out};
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{
     BlockMeta, Bounds, Header, Material, Number, Photon, Query, Record, RecordWriter, StageReport, Step, StreamKind,
@@ -17,9 +16,14 @@ pub(super) fn specimen(kind: StreamKind) -> Vec<u8> {
     match kind {
         StreamKind::Photons => written(photon),
         StreamKind::Queries => written(query),
-        StreamKind::Trace => trace(),
+        StreamKind::Trace => trace(Coding::InTurns),
         StreamKind::UnroundedPhotons => part(),
     }
+}
+
+/// A trace like [`specimen`]'s, whose reads in turns also say what they wait for.
+pub(super) fn waiting_trace() -> Vec<u8> {
+    trace(Coding::Waiting)
 }
 
 /// What `pm-cachesim` prints of a trace in a folder.
@@ -87,14 +91,15 @@ fn part() -> Vec<u8> {
     writer.finish(vec![stage]).expect("an end block")
 }
 
-fn trace() -> Vec<u8> {
+/// A trace with regions of every coding, two of them coded by `in_turns`.
+fn trace(in_turns: Coding) -> Vec<u8> {
     let regions: Vec<Region> = lay_out([
         ("tree".to_owned(), 7 * 20, 20, Coding::HeapWalk { nodes: 7, reread: false }),
         ("list".to_owned(), 4096, 16, Coding::Records),
         ("splits".to_owned(), 16, 8, Coding::LeavesApart { leaves: 3 }),
         ("leaves".to_owned(), 384, 128, Coding::Records),
-        ("buckets".to_owned(), 4096, 64, Coding::InTurns),
-        ("blocks".to_owned(), 4096, 64, Coding::InTurns),
+        ("buckets".to_owned(), 4096, 64, in_turns.clone()),
+        ("blocks".to_owned(), 4096, 64, in_turns),
     ]);
     let header = Header { regions, ..header("pm-gather") };
     let mut writer = TraceWriter::new(vec![], &header).expect("a header");
@@ -106,8 +111,8 @@ fn trace() -> Vec<u8> {
             encoder.records(1, &[i * 40, batch, 255 - i]);
             encoder.records(2, &[0, 1]);
             encoder.records(3, &[1, 2]);
-            encoder.records(4, &[i, 9]);
-            encoder.records(5, &[7 * i]);
+            encoder.waiting_records(4, &[i, 9], &[Waits::NOTHING, Waits::last_above(1)]);
+            encoder.waiting_records(5, &[7 * i], &[Waits::all_above(2)]);
             encoder.end();
         }
         let meta = BlockMeta { batch: batch.into(), ..BlockMeta::default() };
