@@ -11,6 +11,7 @@ LATER += software
 LATER += specular
 LATER += atlas
 LATER += held-orders
+LATER += photon-radii
 LATER += reverse
 LATER += treelets
 LATER += radius
@@ -21,7 +22,7 @@ LATER += views
 LATER += direct
 LATER += cells
 
-later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, latency, private caches, mirrors, order in software, irradiance held beforehand, reverse photon mapping, queues at treelets, parts by radius (-j1: some minutes)
+later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, latency, private caches, mirrors, order in software, irradiance held beforehand, radii of photons, reverse photon mapping, queues at treelets, parts by radius (-j1: some minutes)
 
 out/later/report.html: scripts/later.toml $(LATER:%=out/%.csv) $(call made_with,REPORTING)
 	@mkdir -p $(@D)

@@ -79,6 +79,7 @@ fn no_method_lights_a_sealed_room() {
                 held.flat_map(|map| ["", "--footprint 0.02", "--footprint 9"].map(|how| format!("--map {map} {how}")));
             let mut ways: Vec<&str> = held.map(|way| &*way.leak()).collect();
             ways.extend(["", "--precomputed", "--precomputed --precomputed-share 1", "-k 10 --precomputed"]);
+            ways.extend(["--photon-radii", "-k 10 --photon-radii", "--photon-radii --edges ignored"]);
             if queries == "--gathers 9" {
                 let maps = pm_maps::structures().words();
                 let maps = maps.iter().flat_map(|map| [format!("--map {map}"), format!("--map {map} --precomputed")]);

@@ -26,6 +26,7 @@ mod oracles;
 mod orders;
 mod page;
 mod parts;
+mod photon_radii;
 mod pictures;
 mod pipes;
 mod plan;

@@ -66,7 +66,12 @@ impl Disc {
     /// Cuts the disc where the surfaces of `strangers` (in any order) meet it: nearest first, each unless it lies beyond
     /// the cuts before it.
     pub(super) fn cut(&mut self, strangers: &[Stranger]) {
-        while self.cuts.len() < MOST_CUTS {
+        self.cut_up_to(MOST_CUTS, strangers);
+    }
+
+    /// The same with this many cuts at most.
+    pub(super) fn cut_up_to(&mut self, most: usize, strangers: &[Stranger]) {
+        while self.cuts.len() < most {
             let mut nearest: Option<((f32, u32), Cut)> = None;
             for stranger in strangers {
                 let is_nearer = |((distance, id), _): ((f32, u32), Cut)| {
@@ -107,6 +112,11 @@ impl Disc {
     #[inline]
     pub(super) fn holds(&self, offset: DVec3) -> bool {
         self.cuts.iter().all(|cut| cut.depth(offset) >= 0.0)
+    }
+
+    /// The planes that cut it: unit normal towards the middle, and the middle's distance from the plane in radii.
+    pub(super) fn planes(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        self.cuts.iter().map(|cut| (cut.normal, cut.height))
     }
 
     /// Is it the whole disc?

@@ -4,6 +4,7 @@
 
 mod placed;
 mod plain;
+mod spread;
 mod sum;
 
 use super::disc::{Disc, Slope, Stranger};
@@ -13,6 +14,7 @@ use glam::{DVec3, Vec3};
 use placed::{Placed, exponents};
 use pm_formats::{Bounds, Material, Photon, Query, unpack_direction};
 use pm_maps::Nearest;
+pub(crate) use spread::Spread;
 use std::sync::Arc;
 
 /// Estimates radiance from the photons of one map.

@@ -1,4 +1,4 @@
-//! Irradiance known beforehand, as those see it who answer queries.
+//! What is known beforehand, irradiance above all, as those see it who answer queries.
 
 use super::Outcome;
 use pm_formats::trace::Region;

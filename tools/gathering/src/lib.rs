@@ -2,8 +2,9 @@
 //!
 //! [`RadianceEstimate`] says what the k photons nearest to a query add to its pixel; [`Answerer`] answers a block of
 //! queries, with the trace of what that read; [`PrecomputedIrradiance`] answers those of diffuse surfaces from a few
-//! estimates made beforehand, and [`IrradianceCells`] holds such estimates in the structures of [`irradiance_structures`]. The sum over photons is exact or in the order of their ids, so that a picture does not depend
-//! on which map found them, nor in which order.
+//! estimates made beforehand, and [`IrradianceCells`] holds such estimates in the structures of [`irradiance_structures`];
+//! [`PhotonRadii`] lets each photon say for whom it counts. The sum over the k nearest photons is exact or in the order of their
+//! ids, so that a picture does not depend on which map found them, nor in which order.
 
 mod answer;
 mod answered;
@@ -16,6 +17,7 @@ mod light_error;
 mod lobe;
 mod lookups;
 mod options;
+mod photon_radii;
 mod precomputed;
 mod surface;
 
@@ -30,4 +32,5 @@ pub use kernel::Kernel;
 pub use light_error::LightError;
 pub use lookups::Lookups;
 pub use options::{Edges, EstimateOptions, Estimator, Outcome};
+pub use photon_radii::PhotonRadii;
 pub use precomputed::{Precomputation, PrecomputationError, PrecomputedIrradiance};

@@ -19,6 +19,7 @@ mod search;
 use super::held_irradiance::{HeldIrradiance, is_diffuse, reflected};
 use super::{Outcome, SearchCounts};
 pub use build::Precomputation;
+pub(crate) use build::packed;
 use build::{Estimated, Known};
 use pm_formats::trace::{Coding, Region, lay_out};
 use pm_formats::{Material, Number, Photon, Query, StageReport, unpack_direction, unpack_rgbe};

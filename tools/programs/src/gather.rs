@@ -24,8 +24,8 @@ use pm_formats::trace::{Coding, TraceWriter};
 use pm_formats::vocabulary::meaning;
 use pm_formats::{Header, Photon, Step};
 use pm_gathering::{
-    Answerer, EstimateOptions, FOOTPRINT, Footprint, HeldIrradiance, IrradianceCells, Lookups, Precomputation,
-    PrecomputedIrradiance, RadianceEstimate,
+    Answerer, EstimateOptions, FOOTPRINT, Footprint, HeldIrradiance, IrradianceCells, Lookups, PhotonRadii,
+    Precomputation, PrecomputedIrradiance, RadianceEstimate,
 };
 use pm_maps::{AnyMap, BuildError, Search, Setting, StartRadius, Structure};
 use pm_registry::Registry;
@@ -157,8 +157,11 @@ fn build(args: &Args, photons: &Photons) -> anyhow::Result<(Box<dyn AnyMap>, Opt
         Err(BuildError::Parameter(error)) => return Err(error.into()),
         built => built.with_context(|| named(&args.first.photons))?,
     };
-    if args.rest.precomputed && map.padding().is_some() {
-        return Err(usage("--precomputed: a trace of it holds packed records; leave out what pads those of the map"));
+    if map.padding().is_some() && args.holds() {
+        let option = if args.rest.photon_radii { "--photon-radii" } else { "--precomputed" };
+        return Err(usage(format!(
+            "{option}: a trace of it holds packed records; leave out what pads those of the map"
+        )));
     }
     Ok((map, building))
 }
@@ -217,7 +220,7 @@ fn trace_header(args: &Args, typed: &Typed, map: &dyn AnyMap, photons: &Photons,
     header
 }
 
-/// Irradiance computed beforehand, whose structure gets regions of the trace.
+/// What is computed beforehand: irradiance, or radii of photons. Its structure gets regions of the trace.
 fn precompute<'a>(
     how: &Precomputation<'a>,
     args: &Args,
@@ -231,6 +234,7 @@ fn precompute<'a>(
             let footprint = given.unwrap_or_else(|| Footprint::of_rays(queries));
             Box::new(IrradianceCells::new(how, structure, footprint, threads)?)
         }
+        None if args.rest.photon_radii => Box::new(PhotonRadii::new(how, threads)?),
         None => Box::new(PrecomputedIrradiance::new(how, threads)?),
     };
     header.regions = held.lay_out(std::mem::take(&mut header.regions));

@@ -47,34 +47,45 @@ impl Known {
     }
 }
 
-/// What is known of all sites, and what it took.
-#[derive(Default)]
-pub(crate) struct Estimated {
-    pub(crate) known: Vec<Known>,
+/// What is known of some photons, and what it took.
+pub(crate) struct Estimated<T> {
+    pub(crate) known: Vec<T>,
     pub(crate) counts: SearchCounts,
-    /// Sites that were asked for.
+    /// Photons that were asked for.
     pub(crate) searches: u64,
-}
-
-/// What is known of some sites.
-struct Chunk {
-    sites: Vec<Known>,
-    counts: SearchCounts,
 }
 
 impl Precomputation<'_> {
     /// The irradiance at every `share`-th photon. Photons whose nearest all lie at one point say nothing and are left out.
-    pub(crate) fn estimate(&self, threads: usize) -> Result<Estimated, PrecomputationError> {
-        let ids: Vec<u32> = (0..).take(self.photons.len()).step_by(self.share as usize).collect();
-        let mut all = Estimated { searches: ids.len() as u64, ..Estimated::default() };
+    pub(crate) fn estimate(&self, threads: usize) -> Result<Estimated<Known>, PrecomputationError> {
+        self.at_photons(self.share, threads, |id, photon, found, scratch| {
+            let known = self.estimate.irradiance(photon.position, photon.normal(), found, scratch);
+            known
+                .map(|(irradiance, reach)| {
+                    let irradiance = packed(ROUNDING, id, irradiance).ok_or(PrecomputationError::TooBright(id))?;
+                    Ok(Known { id, irradiance, reach: upper_half(reach * reach) })
+                })
+                .transpose()
+        })
+    }
+
+    /// What `tell` makes of the nearest of every `share`-th photon; where it tells nothing they have no area.
+    pub(crate) fn at_photons<T: Send>(
+        &self,
+        share: u32,
+        threads: usize,
+        tell: impl Fn(u32, &Photon, &Nearest, &mut Scratch) -> Result<Option<T>, PrecomputationError> + Sync,
+    ) -> Result<Estimated<T>, PrecomputationError> {
+        let ids: Vec<u32> = (0..).take(self.photons.len()).step_by(share as usize).collect();
+        let mut all = Estimated { known: vec![], counts: SearchCounts::default(), searches: ids.len() as u64 };
         let mut chunks = ids.chunks(CHUNK);
         in_order(
             threads,
             || Ok(chunks.next()),
-            |ids| self.irradiance_at(ids),
+            |ids| self.at_some(ids, &tell),
             |chunk| {
-                let Chunk { sites, counts } = chunk?;
-                all.known.extend(sites);
+                let (known, counts) = chunk?;
+                all.known.extend(known);
                 all.counts += counts;
                 Ok::<_, PrecomputationError>(())
             },
@@ -82,32 +93,37 @@ impl Precomputation<'_> {
         Ok(all)
     }
 
-    /// The irradiance at these photons, where there is any to be had.
-    fn irradiance_at(&self, ids: &[u32]) -> Result<Chunk, PrecomputationError> {
+    /// What `tell` makes of the nearest of these photons, and what it took.
+    fn at_some<T>(
+        &self,
+        ids: &[u32],
+        tell: &impl Fn(u32, &Photon, &Nearest, &mut Scratch) -> Result<Option<T>, PrecomputationError>,
+    ) -> Result<(Vec<T>, SearchCounts), PrecomputationError> {
         let (mut found, mut scratch) = (Nearest::new(self.search.k, 0.0), Scratch::default());
         let mut reads = SearchReads::with_rereads(self.reread);
         let mut counts = SearchCounts::default();
-        let mut sites = Vec::with_capacity(ids.len());
+        let mut known = Vec::with_capacity(ids.len());
         for &id in ids {
             let photon = &self.photons[id as usize];
             reads.clear();
             counts.attempts += u64::from(self.search.run(self.map, photon.position, &mut found, &mut reads));
             counts.accesses += reads.len() as u64;
             counts.short += u64::from(!found.is_full());
-            match self.estimate.irradiance(photon.position, photon.normal(), &found, &mut scratch) {
-                Some((irradiance, reach)) => {
-                    // By a hash of the id, so that sums over many sites are exact on average.
-                    let mut random = Random::new(&[ROUNDING, u64::from(id)]);
-                    #[expect(clippy::cast_possible_truncation, reason = "what is too large becomes infinite")]
-                    let packed = pack_rgbe(irradiance.map(|x| x as f32), [(); 3].map(|()| random.unit()));
-                    let irradiance = packed.ok_or(PrecomputationError::TooBright(id))?;
-                    sites.push(Known { id, irradiance, reach: upper_half(reach * reach) });
-                }
+            match tell(id, photon, &found, &mut scratch)? {
+                Some(told) => known.push(told),
                 None => counts.no_area += 1,
             }
         }
-        Ok(Chunk { sites, counts })
+        Ok((known, counts))
     }
+}
+
+/// Light as RGBE, rounded by a hash of `purpose` and of a photon's id, so that sums over many are exact on average; `None` if
+/// it is beyond what that can say.
+pub(crate) fn packed(purpose: u64, id: u32, light: [f64; 3]) -> Option<[u8; 4]> {
+    let mut random = Random::new(&[purpose, u64::from(id)]);
+    #[expect(clippy::cast_possible_truncation, reason = "what is too large becomes infinite")]
+    pack_rgbe(light.map(|x| x as f32), [(); 3].map(|()| random.unit()))
 }
 
 /// The upper half of a single-precision float not above `x`.

@@ -92,7 +92,7 @@ impl Done {
         }
         if counts.no_site > 0 {
             common.remark(format!(
-                "{} of {queries} queries searched all the same: no precomputed irradiance is known of their surface near them",
+                "{} of {queries} queries searched all the same: nothing precomputed is known of their surface near them",
                 counts.no_site
             ));
         }

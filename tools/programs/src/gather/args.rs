@@ -22,6 +22,8 @@ pub(super) struct Args {
     k_is_typed: bool,
     /// Was it typed how many photons hold irradiance?
     share_is_typed: bool,
+    /// Was it typed which of the photons found are summed?
+    estimator_is_typed: bool,
     pub(super) first: First,
     pub(super) rest: Rest,
 }
@@ -82,6 +84,13 @@ pub(super) struct Rest {
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub(super) precomputed_share: u32,
+    /// Each photon has the radius of its own k nearest, and a query takes those that have it within theirs
+    ///
+    /// Singh and Faloutsos' method: radii are searched for beforehand, once for each photon, which the trace's end block counts. A
+    /// query goes down a hierarchy of boxes once, without a heap; the trace holds that. Another estimate, of the same
+    /// flux: darker at edges. Queries that no photon reaches search for k as ever.
+    #[arg(long, conflicts_with_all = ["report", "precomputed", "waits", "carry"], hide_short_help = true)]
+    pub(super) photon_radii: bool,
     /// How much a photon counts by its distance [default: constant; cone where all photons are of caustics]
     #[arg(long, hide_short_help = true, value_parser = choice::<Kernel>())]
     kernel: Option<Kernel>,
@@ -171,8 +180,8 @@ pub(super) fn command(
         let of: &[&dyn Structure] = if unseen { &[fastest(), usual] } else { &[usual] };
         let (map, hurry) = (maps.read_or_choose(matches, of)?, unseen && maps.is_left(matches));
         let is_typed = |name: &str| matches.value_source(name) == Some(ValueSource::CommandLine);
-        let (k_is_typed, share_is_typed) = (is_typed("k"), is_typed("precomputed_share"));
-        Ok(Args { map, hurry, trace, k_is_typed, share_is_typed, first, rest })
+        let [k_is_typed, share_is_typed, estimator_is_typed] = ["k", "precomputed_share", "estimator"].map(is_typed);
+        Ok(Args { map, hurry, trace, k_is_typed, share_is_typed, estimator_is_typed, first, rest })
     };
     (command, read)
 }
@@ -197,9 +206,9 @@ impl Args {
         irradiance_structures().find(self.map.entry.word()).ok()
     }
 
-    /// Is irradiance computed beforehand?
+    /// Is irradiance, or a radius for each photon, computed beforehand?
     pub(super) fn holds(&self) -> bool {
-        self.rest.precomputed || self.structure_held().is_some()
+        self.rest.precomputed || self.rest.photon_radii || self.structure_held().is_some()
     }
 
     /// Bytes of a line, in which reads are described.
@@ -247,6 +256,24 @@ impl Args {
         }
     }
 
+    /// Refuses what does not go together with radii of photons.
+    fn check_radii(&self) -> anyhow::Result<()> {
+        let rest = &self.rest;
+        let refusal = match self.structure_held() {
+            _ if !rest.photon_radii => return Ok(()),
+            Some(_) => format!("--map {} holds irradiance itself; leave out one of them", self.map.entry.word()),
+            None if self.estimator_is_typed => {
+                "all photons that reach a query are summed; leave --estimator out".into()
+            }
+            None if rest.edges == Edges::Sloped => {
+                "photons weigh by their own discs; give --edges cut or ignored".into()
+            }
+            None if rest.k < 2 => "a photon is the first of its own k; give -k 2 or more".into(),
+            None => return Ok(()),
+        };
+        Err(usage(format!("--photon-radii: {refusal}")))
+    }
+
     /// Is there anything that cannot be done, whatever the files hold?
     pub(super) fn check(&self) -> anyhow::Result<()> {
         let Self { first, rest, .. } = self;
@@ -260,6 +287,7 @@ impl Args {
             return Err(usage("--exposure: a finite number of stops is expected"));
         }
         self.check_held()?;
+        self.check_radii()?;
         let standard = |path: &Option<PathBuf>| path.as_deref().is_some_and(|path| path == Path::new("-"));
         let output = &rest.output.output;
         if standard(&rest.report) && self.trace && (output.is_none() || standard(output)) {
