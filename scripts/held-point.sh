@@ -11,7 +11,7 @@ if [ "$order" = scanline ]; then cp "$queries" "$work/q.pmq"; else pm-reorder -q
 pm-gather -q --no-trace "$photons" "$work/q.pmq" --image "$work/full.exr"
 pm-gather -q "$photons" "$work/q.pmq" "$@" --image "$work/own.exr" -o "$work/own.pmt"
 pm-cachesim -q --format csv "$work/own.pmt" > "$work/traffic"
-pm-view "$work/own.exr" "$work/full.exr" --format csv > "$work/error"
+pm-view "$work/full.exr" "$work/own.exr" --format csv > "$work/error"
 {
     echo searched_all_the_same
     pm-view "$work/own.pmt" | awk '$1 == "pm-gather" && $2 == "lookups_without_site" { gsub(",", "", $3); n = $3 } END { print n + 0 }'

@@ -1,6 +1,6 @@
 # make paper: every table and figure of the paper again, sampled, and what the paper leaves out.
 
-PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures storage shards sampling failures
+PAPER_SWEEPS := table1 figure6 figure6-cached figure7 figure8 scenes guided hashing convergence pictures cached storage shards sampling failures
 TAKEN += paper references exact
 PAPER_DATA := $(PAPER_SWEEPS:%=out/%.csv) $(patsubst %,out/paper/%.csv,table1 storage cheapest sampling claims plan)
 # Of Figures 1 and 4; scripts/pictures.mk renders them.
@@ -41,14 +41,23 @@ out/references/cornell.exr out/references/cornell.base.exr &: $(call made_with,P
 	    pm-gather -q out/references/cornell.pmp - -k 200 -t $(THREADS) --no-trace --base out/references/cornell.base.exr --image out/references/cornell.exr'
 	@test -s out/references/cornell.exr
 
-# Irradiance is cached with ease on a wall, and not in a corner. Both views without a cache, to compare with.
-VIEW := --size 48x48 --gathers 400 --vfov 40
-export VIEW_wall := $(VIEW) --eye 0,0.75,-0.1 --look-at 0,0.75,-0.5
-export VIEW_corner := $(VIEW) --eye -0.2,0.7,-0.2 --look-at -0.5,1,-0.5
-out/references/wall.exr out/references/corner.exr: out/references/%.exr: out/streams/scenes-cornell-diffuse.obj-n-50000.pmp $(call made_with,VIEW_wall VIEW_corner PROGRAMS)
+# What cached irradiance is compared with, the same view without a cache: a wall, where it is cached with ease, and a corner; the plain box and the
+# fractal one, in all their light and where what mirrors and glass focus is left to a map of its own (soft).
+VIEW := --size 48x48 --gathers 400
+export VIEW_wall := $(VIEW) --vfov 40 --eye 0,0.75,-0.1 --look-at 0,0.75,-0.5
+export VIEW_corner := $(VIEW) --vfov 40 --eye -0.2,0.7,-0.2 --look-at -0.5,1,-0.5
+export VIEW_soft := $(VIEW) --no-caustics
+export VIEW_all := $(VIEW)
+VIEWED := scenes/cornell-diffuse.obj
+VIEWED_plain := scenes/cornell.obj
+VIEWED_fractal := out/scenes/fractal.obj
+view_of = $(VIEW_$(firstword $(subst -, ,$1)))
+viewed = $(or $(VIEWED_$(lastword $(subst -, ,$1))),$(VIEWED))
+$(patsubst %,out/references/%.exr,wall corner soft-plain soft-fractal all-plain all-fractal): out/references/%.exr: \
+        $$(call viewed,$$*) out/streams/$$(subst /,-,$$(call viewed,$$*))-n-50000.pmp $(call made_with,VIEW_wall VIEW_corner VIEW_soft VIEW_all PROGRAMS)
 	@mkdir -p $(@D)
-	$(LAUNCH) bash -euo pipefail -c 'pm-queries -q scenes/cornell-diffuse.obj $(VIEW_$*) -t $(THREADS) --base out/references/$*.base.exr | \
-	    pm-gather -q $< - --no-trace -t $(THREADS) --base out/references/$*.base.exr --image $@'
+	$(LAUNCH) bash -euo pipefail -c 'pm-queries -q $< $(call view_of,$*) -t $(THREADS) --base out/references/$*.base.exr | \
+	    pm-gather -q $(word 2,$^) - --no-trace -t $(THREADS) --base out/references/$*.base.exr --image $@'
 	@test -s $@
 
 # The diffuse box, and the same with every surface as glossy as not.
@@ -59,7 +68,7 @@ out/scenes/box-diffuse.obj out/scenes/box-glossy.obj: out/scenes/box-%.obj: scen
 	@sed 's/^mtllib .*/mtllib box-$*.mtl/' $< > $@
 
 # What the paper says, and what we find.
-out/paper/claims.csv: scripts/claims.csv $(CLAIMED) $(call made_with,REPORTING)
+out/paper/claims.csv: scripts/claims.csv $(CLAIMED.claims) $(call made_with,REPORTING)
 	@mkdir -p $(@D)
 	@$(BIN)/pm-sweep derive claims $< -o $@
 

@@ -19,7 +19,7 @@ cast=$(now)
 pm-gather -q "$photons" "$out.pmq" "$@" --base "$reference.base.exr" --image "$out.exr" --no-trace
 gathered=$(now)
 pm-gather -q "$photons" "$out.pmq" "$@" | pm-cachesim -q --format csv > "$out.traffic"
-pm-view "$out.exr" "$reference.exr" --format csv > "$out.error"
+pm-view "$reference.exr" "$out.exr" --format csv > "$out.error"
 seconds() { printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000)); }
 {
     echo seconds_cast,seconds_gather,seconds

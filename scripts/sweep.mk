@@ -43,7 +43,7 @@ ifneq ($(filter-out $(PLAIN),$(MAKECMDGOALS)),)
 out/rules.mk: $(if $(MAKE_RESTARTS)$(COUNTING),,programs always)
 	@mkdir -p $(@D)
 	@$(if $(only_told),,$(BIN)/pm-sweep hold out --by $$PPID --what $(call quoted,make $(MAKECMDGOALS)) &&) \
-	    $(BIN)/pm-sweep rules $(sort $(wildcard scripts/sweeps/*.csv)) --claims scripts/claims.csv --taken '$(TAKEN)' $(if $(SWEEP),--own $(call quoted,$(SWEEP))) -o $@
+	    $(BIN)/pm-sweep rules $(sort $(wildcard scripts/sweeps/*.csv)) --claims scripts/claims.csv --claims scripts/later-claims.csv --taken '$(TAKEN)' $(if $(SWEEP),--own $(call quoted,$(SWEEP))) -o $@
 include out/rules.mk
 endif
 

@@ -18,9 +18,9 @@ pub(super) struct Args {
     /// Names that no --own table may have: make has other targets of these names
     #[arg(long, value_name = "NAMES", value_delimiter = ' ')]
     taken: Vec<String>,
-    /// Claims, and what files of rows these need: the variable CLAIMED
+    /// A table of claims: what files of rows it needs is the variable CLAIMED.NAME; may be repeated
     #[arg(long, value_name = "FILE")]
-    claims: Option<PathBuf>,
+    claims: Vec<PathBuf>,
     #[command(flatten)]
     vocabulary: Vocabulary,
     /// File to write; it stays as it is where nothing changes. `-` is standard output
@@ -49,8 +49,9 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(own) = own {
         text += &format!("OWN := {}\n", own.joined());
     }
-    if let Some(claims) = &args.claims {
-        text += &format!("CLAIMED := {}\n", derive::files_of_claims(claims)?.join(" "));
+    for claims in &args.claims {
+        let name = claims.file_stem().unwrap_or_default().display();
+        text += &format!("CLAIMED.{name} := {}\n", derive::files_of_claims(claims)?.join(" "));
     }
     text += &pm_sweep::rules::rules(&sweeps, &args.vocabulary.words.display().to_string()).map_err(asked_wrongly)?;
     if is_there(&args.output, text.as_bytes()) {
