@@ -12,7 +12,7 @@ mod section;
 mod spelling;
 mod writer;
 
-pub use block::Block;
+pub use block::{Block, Compression};
 pub use block_header::MAX_BLOCK;
 pub use end::{End, Number, StageReport};
 pub use header::{Bounds, Header, Material};

@@ -41,8 +41,8 @@ pub use beside::{
     tally_beside,
 };
 pub use container::{
-    Block, BlockMeta, BlockReader, BlockWriter, Bounds, End, FORMAT_VERSION, Header, MAGIC, MAX_BLOCK, MAX_PIXELS,
-    Material, Number, Section, StageReport, StreamKind,
+    Block, BlockMeta, BlockReader, BlockWriter, Bounds, Compression, End, FORMAT_VERSION, Header, MAGIC, MAX_BLOCK,
+    MAX_PIXELS, Material, Number, Section, StageReport, StreamKind,
 };
 pub use digest::{Digest, Tally};
 pub use error::{Error, Result};

@@ -13,7 +13,7 @@ pub use query::Query;
 pub use rgbe::{pack_rgbe, unpack_rgbe};
 pub use unrounded_photon::UnroundedPhoton;
 
-use crate::container::{Block, BlockMeta, Header, Section, StreamKind};
+use crate::container::{Block, BlockMeta, Compression, Header, Section, StreamKind};
 use crate::digest::Tally;
 use crate::error::Result;
 use bytemuck::Pod;
@@ -42,12 +42,22 @@ pub trait Record: Pod {
 /// # Errors
 /// If the records are too many for a block.
 pub fn encode_records<T: Record>(meta: BlockMeta, records: &[T]) -> Result<(Block, Tally)> {
+    encode_records_as(meta, records, Compression::Zstd)
+}
+
+/// The same, compressed or not.
+///
+/// # Errors
+/// As [`encode_records`].
+pub(crate) fn encode_records_as<T: Record>(
+    meta: BlockMeta,
+    records: &[T],
+    compression: Compression,
+) -> Result<(Block, Tally)> {
     let count = u32::try_from(records.len()).expect("a block's worth of records");
-    let block = Block::encode(
-        BlockMeta { records: count, ..meta },
-        bytemuck::cast_slice(&columns(words(records), words_each::<T>())),
-        LEVEL,
-    )?;
+    let columns = columns(words(records), words_each::<T>());
+    let meta = BlockMeta { records: count, ..meta };
+    let block = Block::encode_as(meta, bytemuck::cast_slice(&columns), LEVEL, compression)?;
     Ok((block, tally(words(records), words_each::<T>())))
 }
 

@@ -6,6 +6,16 @@ use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
 
+/// What is done to the payloads of a stream's blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compression {
+    /// Compressed where that makes them smaller: for files.
+    #[default]
+    Zstd,
+    /// Nothing: for a pipe, whose reader would undo it at once.
+    None,
+}
+
 /// A block as it stands in a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
@@ -27,12 +37,23 @@ impl Block {
         Self::encode_section(Section::Records, meta, payload, level)
     }
 
+    /// The same, compressed or not.
+    ///
+    /// # Errors
+    /// As [`encode`](Self::encode).
+    pub(crate) fn encode_as(meta: BlockMeta, payload: &[u8], level: i32, compression: Compression) -> Result<Self> {
+        match compression {
+            Compression::Zstd => Self::encode(meta, payload, level),
+            Compression::None => Self::packed(Section::Records, meta, payload, |_| Ok(None)),
+        }
+    }
+
     /// The same where what repeats may be far apart, anywhere in the payload.
     ///
     /// # Errors
     /// As [`encode`](Self::encode).
     pub(crate) fn encode_long(meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        Self::packed(Section::Records, meta, payload, |payload| compress_long(payload, level))
+        Self::packed(Section::Records, meta, payload, |payload| compress_long(payload, level).map(Some))
     }
 
     /// A block of a trace whose payload of so many bytes was packed by those who know its walks.
@@ -51,23 +72,22 @@ impl Block {
     }
 
     pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        Self::packed(section, meta, payload, |payload| compress(payload, level))
+        Self::packed(section, meta, payload, |payload| compress(payload, level).map(Some))
     }
 
     fn packed(
         section: Section,
         meta: BlockMeta,
         payload: &[u8],
-        pack: impl FnOnce(&[u8]) -> std::io::Result<Vec<u8>>,
+        pack: impl FnOnce(&[u8]) -> std::io::Result<Option<Vec<u8>>>,
     ) -> Result<Self> {
         if payload.len() > MAX_BLOCK {
             return Err(Error::Invalid(format!("a block of {} bytes; the most is {MAX_BLOCK}", payload.len())));
         }
         let raw_len = u32::try_from(payload.len()).expect("MAX_BLOCK fits in 32 bits");
-        let packed = pack(payload)?;
-        let (packing, bytes) = match packed.len() < payload.len() {
-            true => (Packing::Zstd, packed),
-            false => (Packing::Plain, payload.to_vec()),
+        let (packing, bytes) = match pack(payload)?.filter(|packed| packed.len() < payload.len()) {
+            Some(packed) => (Packing::Zstd, packed),
+            None => (Packing::Plain, payload.to_vec()),
         };
         Ok(Self { section, meta, packing, raw_len, bytes })
     }

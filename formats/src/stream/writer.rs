@@ -1,9 +1,9 @@
 //! Streams of records, written in blocks.
 
-use crate::container::{Block, BlockMeta, BlockWriter, End, Header, StageReport};
+use crate::container::{Block, BlockMeta, BlockWriter, Compression, End, Header, StageReport};
 use crate::digest::Tally;
 use crate::error::Result;
-use crate::record::{BLOCK_RECORDS, Record, encode_records};
+use crate::record::{BLOCK_RECORDS, Record, encode_records_as};
 use std::io::Write;
 
 /// Writes records of one kind, cutting blocks at [`BLOCK_RECORDS`] and wherever the batch changes.
@@ -12,6 +12,7 @@ pub struct RecordWriter<T, W> {
     meta: BlockMeta,
     held: Vec<T>,
     tally: Tally,
+    compression: Compression,
 }
 
 impl<T: Record, W: Write> RecordWriter<T, W> {
@@ -26,7 +27,14 @@ impl<T: Record, W: Write> RecordWriter<T, W> {
             meta: BlockMeta::default(),
             held: Vec::with_capacity(BLOCK_RECORDS),
             tally: Tally::default(),
+            compression: Compression::default(),
         })
+    }
+
+    /// The same writer, which compresses its blocks, or does not.
+    #[must_use]
+    pub fn with_compression(self, compression: Compression) -> Self {
+        Self { compression, ..self }
     }
 
     /// Writes records that belong to `meta`'s batch (its record count is ignored).
@@ -64,7 +72,7 @@ impl<T: Record, W: Write> RecordWriter<T, W> {
 
     fn cut(&mut self) -> Result<()> {
         if !self.held.is_empty() {
-            let (block, tally) = encode_records(self.meta, &self.held)?;
+            let (block, tally) = encode_records_as(self.meta, &self.held, self.compression)?;
             self.blocks.write(&block)?;
             self.tally += tally;
             self.held.clear();

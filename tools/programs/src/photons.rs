@@ -11,7 +11,7 @@ use crate::setting::header;
 use anyhow::ensure;
 use collect::{Collected, Traced};
 use pm_formats::vocabulary::{meaning, measure};
-use pm_formats::{BlockMeta, Number, RecordWriter, StageReport};
+use pm_formats::{BlockMeta, Number, StageReport};
 use pm_light::scene::Scene;
 use pm_light::transport::PhotonPaths;
 use pm_parallel::in_order;
@@ -40,7 +40,7 @@ pub fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     if let Some(part) = args.part {
         return part::trace(part, &args, &scene, header, typed);
     }
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let mut output = args.output.begin(&header)?;
     let progress = Progress::new(header.expected_records, "photons", args.common.quiet);
 
     let paths = paths(&args, &scene);

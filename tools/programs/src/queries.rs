@@ -16,7 +16,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, CommandFactory, FromArgMatches};
 use guide::GuidePhotons;
 use pm_formats::vocabulary::{meaning, measure};
-use pm_formats::{BlockMeta, Header, Number, RecordWriter, StageReport};
+use pm_formats::{BlockMeta, Header, Number, StageReport};
 use pm_light::scene::Scene;
 use pm_light::transport::{AtSpecular, CacheOptions, CacheRecords, GatherRays, RayCounts};
 use pm_orders::{Generative, GenerativeOrder};
@@ -80,7 +80,7 @@ pub fn run(Asked { args, order }: Asked, typed: &Typed) -> anyhow::Result<()> {
 
     // First, so that a reader of the stream who leaves at once does not leave without the picture being missed.
     let mut base = args.base.as_ref().map(|path| Base::create(path, size, &scene, args.part)).transpose()?;
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let mut output = args.output.begin(&header)?;
     if let Some(guide) = guide.filter(|_| !rays.are_guided()) {
         guide.remark_too_few(&rays, &args.common);
     }

@@ -59,7 +59,7 @@ fn reorder(args: Args, typed: &Typed) -> anyhow::Result<()> {
         limits: memory::limits(&args, &header),
     };
     let mut order = Reordering::new(first.per, order.entry.build(setting)?);
-    let mut output = RecordWriter::new(rest.output.create()?, &header)?;
+    let mut output = rest.output.begin(&header)?;
     let progress = Progress::new(header.expected_records, "queries", rest.voice.quiet);
     while let Some((meta, records)) = queries.next_block().with_context(|| name.clone())? {
         pass_on(queries.take_beside(), &mut output)?;

@@ -7,7 +7,7 @@ use anyhow::Context as _;
 use clap::{ArgGroup, Parser};
 use cutter::Cutter;
 use pm_formats::vocabulary::{SampleUnit, meaning, measure};
-use pm_formats::{Header, Number, Query, RecordReader, RecordWriter, StageReport};
+use pm_formats::{Header, Number, Query, RecordReader, StageReport};
 use pm_programs::cli::{self, OutputArgs, Progress, Typed, Voice, named, open_input, refuse_part, usage};
 use pm_random::Random;
 use pm_sampling::windows::StratifiedStream;
@@ -132,7 +132,7 @@ fn run(args: Args, typed: &Typed) -> anyhow::Result<()> {
     sample.describe(&args, &name, &mut header)?;
     header.history.push(typed.step_from(&args.input, Some(args.seed)));
 
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let mut output = args.output.begin(&header)?;
     let (mut batch, mut kept_batch) = (None, false);
     let (mut batches, mut batches_kept, mut kept) = (0u64, 0u64, 0u64);
     while let Some((meta, mut records)) = queries.next_block().with_context(|| name.clone())? {

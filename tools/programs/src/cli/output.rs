@@ -3,11 +3,12 @@
 use super::claims;
 use super::usage::usage;
 use anyhow::Context as _;
+use pm_formats::{Compression, Header, Record, RecordWriter};
 use std::fmt;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, IsTerminal as _, Write};
 use std::os::fd::AsFd as _;
-use std::os::unix::fs::PermissionsExt as _;
+use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use tempfile::NamedTempFile;
@@ -21,6 +22,16 @@ pub struct OutputArgs {
 }
 
 impl OutputArgs {
+    /// Begins a stream of records there.
+    ///
+    /// # Errors
+    /// As [`create`](Self::create), and if the header cannot be written.
+    pub fn begin<T: Record>(&self, header: &Header) -> anyhow::Result<RecordWriter<T, Output>> {
+        let output = self.create()?;
+        let compression = output.compression();
+        Ok(RecordWriter::new(output, header)?.with_compression(compression))
+    }
+
     /// Opens the output for binary data.
     ///
     /// # Errors
@@ -135,6 +146,18 @@ fn behind_symlinks(path: &Path) -> io::Result<PathBuf> {
 }
 
 impl Output {
+    /// What to do to blocks of records that go there. A pipe's reader would only undo their compression, which takes longer than all
+    /// else that is done to a record on its way. (Traces go compressed: their searches take so long that nothing is gained.)
+    fn compression(&self) -> Compression {
+        let is_pipe = match &self.target {
+            Target::Standard(file) | Target::Direct(file) => {
+                file.get_ref().metadata().is_ok_and(|metadata| metadata.file_type().is_fifo())
+            }
+            Target::Atomic { .. } => false,
+        };
+        if is_pipe { Compression::None } else { Compression::Zstd }
+    }
+
     /// Flushes what is buffered and lets the file appear under its name.
     ///
     /// # Errors

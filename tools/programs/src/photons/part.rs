@@ -4,7 +4,7 @@ use super::collect::Traced;
 use super::{Args, PATHS, check_hope, paths};
 use crate::cli::{Progress, Typed};
 use pm_formats::vocabulary::{Part, meaning, measure};
-use pm_formats::{BlockMeta, Header, Number, RecordWriter, StageReport, UnroundedPhoton};
+use pm_formats::{BlockMeta, Header, Number, StageReport, UnroundedPhoton};
 use pm_light::scene::Scene;
 use pm_parallel::in_order;
 use std::cell::RefCell;
@@ -46,7 +46,7 @@ impl Stored {
 /// Traces a part of the photons and writes it.
 pub(super) fn trace(part: Part, args: &Args, scene: &Scene, mut header: Header, typed: &Typed) -> anyhow::Result<()> {
     header.set_meaning(meaning::PART, part);
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let mut output = args.output.begin(&header)?;
     let progress = Progress::new(Some(args.number / part.of()), "photons", args.common.quiet);
     let paths = paths(args, scene);
     let stored = RefCell::new(Stored::default());

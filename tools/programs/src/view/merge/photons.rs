@@ -6,8 +6,7 @@ use crate::photons::PATHS;
 use anyhow::{Context as _, bail};
 use pm_formats::vocabulary::{Part, measure};
 use pm_formats::{
-    BlockMeta, BlockReader, Header, Number, RecordReader, RecordWriter, StageReport, UnroundedPhoton, part_of,
-    whole_header,
+    BlockMeta, BlockReader, Header, Number, RecordReader, StageReport, UnroundedPhoton, part_of, whole_header,
 };
 use pm_light::transport::photon_rounding;
 use std::iter::Peekable;
@@ -22,7 +21,7 @@ pub(super) fn merge(args: &Args, parts: Vec<(String, BlockReader<Input>)>) -> an
     parts.sort_by_key(|source| source.part.number());
     let (wanted, seed, program) = asked(&header)?;
 
-    let mut output = RecordWriter::new(args.output.create()?, &header)?;
+    let mut output = args.output.begin(&header)?;
     let progress = Progress::new(Some(wanted), "photons", args.voice.quiet);
     let (mut stored, mut emitted) = (0, 0);
     let mut packed = vec![];
