@@ -65,7 +65,8 @@ fn sorted_on_disk_is_sorted_in_memory() {
         let in_memory = folder.run(&format!("pm-reorder {order} {input}")).ok().stdout;
         let line = format!("pm-reorder {order} {input} --memory 64K");
         let mut command = folder.command(&line);
-        let on_disk = Outcome::when_done(&line, command.env("TMPDIR", folder.path("tmp")).spawn().unwrap());
+        command.env("TMPDIR", folder.path("tmp"));
+        let on_disk = Outcome::of(&line, command);
         let said = on_disk.fails(0);
         assert!(said.contains("more than --memory 64K holds: sorting in temporary files in "), "{said}");
         assert!(said.contains("/tmp"), "{said}");

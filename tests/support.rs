@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::Write as _;
+use std::io::{Read as _, Seek as _, Write as _};
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -90,14 +90,16 @@ impl Folder {
     /// Runs a command with these bytes on its standard input.
     pub(crate) fn feed(&self, line: &str, input: &[u8]) -> Outcome {
         let mut command = self.command(line);
-        let mut child = command.stdin(Stdio::piped()).spawn().expect("the program starts");
-        let mut stdin = child.stdin.take().expect("a pipe");
-        std::thread::scope(|scope| {
-            scope.spawn(move || {
-                // A program that has seen enough stops reading.
-                let _ = stdin.write_all(input);
-            });
-            Outcome::when_done(line, child)
+        command.stdin(Stdio::piped());
+        Outcome::into_file(line, command, |mut child| {
+            let mut stdin = child.stdin.take().expect("a pipe");
+            std::thread::scope(|scope| {
+                scope.spawn(move || {
+                    // A program that has seen enough stops reading.
+                    let _ = stdin.write_all(input);
+                });
+                Outcome::when_done(line, child)
+            })
         })
     }
 
@@ -125,8 +127,20 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    fn of(line: &str, mut command: Command) -> Self {
-        Self::when_done(line, command.spawn().expect("the program starts"))
+    /// What comes of a command.
+    pub(crate) fn of(line: &str, command: Command) -> Self {
+        Self::into_file(line, command, |child| Self::when_done(line, child))
+    }
+
+    /// With standard output in a file, so that what comes there is what a file by `-o` would be: streams go through pipes otherwise.
+    fn into_file(line: &str, mut command: Command, done: impl FnOnce(Child) -> Self) -> Self {
+        let mut file = tempfile::tempfile().expect("a temporary file");
+        command.stdout(file.try_clone().expect("a second hold of a file"));
+        let child = command.spawn().unwrap_or_else(|error| panic!("`{line}`: {error}"));
+        let outcome = done(child);
+        let mut stdout = vec![];
+        file.rewind().and_then(|()| file.read_to_end(&mut stdout)).expect("what was written");
+        Self { stdout, ..outcome }
     }
 
     /// Waits for a command to end, with patience but not for ever.
