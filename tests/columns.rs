@@ -28,6 +28,7 @@ fn every_column_stands_in_the_dictionary() {
         "w.pmt",
         "--dinero --dram 32,8K,open t.pmt",
         "--miss-chain c.pmt",
+        "--prefetch treelet:512 t.pmt",
         "--private 2 --shared 1M,full,128,lru t.pmt",
         "--curve --shards 0.5 t.pmt",
     ] {

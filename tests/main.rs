@@ -31,6 +31,7 @@ mod pictures;
 mod pipes;
 mod plan;
 mod precomputed;
+mod prefetch;
 mod private;
 mod readme;
 mod recipes;

@@ -221,13 +221,14 @@ fn every_claim_has_a_verdict(claims: &str, least: usize) {
     let columns = [&columns[..], &["ordering_seconds", "gathering_seconds", "structure_bytes"]].concat();
     let columns = [&columns[..], &["rel_mse", "max_difference", "fetches_waiting_searches"]].concat();
     let columns = [&columns[..], &["query_bytes", "total_bytes"]].concat();
+    let columns = [&columns[..], &["prefetch_accuracy", "prefetch_coverage", "prefetch_traffic"]].concat();
     let (mut names, mut ones) = ("private,cache_bytes,ways".to_owned(), String::new());
     for column in columns {
         names = format!("{names},{column}");
         ones += ",1";
     }
     let (mut rows, mut elements) = (names, [1, 16, 64].into_iter().chain(100..));
-    for size in [4, 32, 128, 256, 1024] {
+    for size in [4, 16, 32, 128, 256, 1024] {
         for ways in ["full", "8"] {
             let private = elements.next().expect("numbers never end");
             rows += &format!("\n{private},{},{ways}{ones}", size * 1024);

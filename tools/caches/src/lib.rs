@@ -21,7 +21,7 @@
 //! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
 //!   It does not minimise write-backs, which are counted for what it keeps.
 //!
-//! With [`Lanes`] in front, several searches are in flight at a time over the same cache. [`Windows`] runs each window of a
+//! [`Prefetching`] brings in more than was missed. With [`Lanes`] in front, several searches are in flight at a time over the same cache. [`Windows`] runs each window of a
 //! sampled trace through caches that begin empty, and estimates what the whole would have cost.
 //!
 //! # To add a policy
@@ -49,6 +49,7 @@ mod models;
 #[cfg(test)]
 mod plain_lru;
 mod policies;
+mod prefetch;
 mod private;
 mod simulation;
 pub mod trial;
@@ -65,6 +66,7 @@ pub use lines::{Attributes, LineChunk, LineSpace};
 pub use misses::{BankMap, Dram, DramCounts, DramError, MissStream, MissStreamError, Misses, RowPolicy};
 pub use models::{Answer, CacheModel, CacheOnTrace, LineCounts, Modelled, Replacement};
 pub use policies::{ChosenPolicy, Policy, UnknownPolicy, WaysNeeded, policies};
+pub use prefetch::{PrefetchCounts, PrefetchError, Prefetcher, Prefetching};
 pub use private::{PrivateCaches, PrivateCounts};
 pub use simulation::{Simulation, SimulationError};
 pub use windows::{CountedWindows, WindowCounts, WindowError, WindowedCounts, Windows};

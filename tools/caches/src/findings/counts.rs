@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::{Distribution, RecordCounts, WorkingSets};
-use crate::{CacheConfig, DramCounts, PrivateCounts};
+use crate::{CacheConfig, DramCounts, PrefetchCounts, PrivateCounts};
 
 /// One cache and what the trace cost with it: exact counts as fields, ratios as methods.
 ///
@@ -51,6 +51,8 @@ pub struct AskedCounts {
     pub miss_chains: Option<Distribution>,
     /// Where the cache is one of several private ones, what they have in common.
     pub private: Option<Box<PrivateCounts>>,
+    /// With a prefetcher, what it was good for.
+    pub prefetch: Option<PrefetchCounts>,
     /// Distinct lines of searches and batches; the same for all caches of a line size.
     pub working_sets: Option<Rc<WorkingSets>>,
 }

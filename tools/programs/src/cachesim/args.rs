@@ -4,7 +4,7 @@ use super::sizes::{Size, Sizes};
 use crate::cli::{OutputArgs, Voice, choice};
 use crate::foreign_args::ForeignArgs;
 use clap::Parser;
-use pm_caches::{CacheConfig, ChosenPolicy, Dram, LaneSource, SpanRule, Ways};
+use pm_caches::{CacheConfig, ChosenPolicy, Dram, LaneSource, Prefetcher, SpanRule, Ways};
 use pm_report::Format;
 use pm_size::Bytes;
 use std::path::{Path, PathBuf};
@@ -105,6 +105,14 @@ pub struct Args {
     /// A cache that all share behind their own, which is then the one --cache; columns for what it fetches
     #[arg(long, value_name = "SIZE,WAYS,LINE,POLICY", requires = "private", hide_short_help = true)]
     pub(super) shared: Option<CacheConfig>,
+    /// A miss brings in more: the N lines behind it (`next-line:N`), or its block of so many bytes (`treelet:512`), into fully
+    /// associative LRU caches; columns for how much of that was used
+    ///
+    /// Blocks are counted from the beginning of a region. Fetches are the misses that are left; bytes fetched are those of what was
+    /// prefetched as well.
+    #[arg(long, value_name = "HOW", hide_short_help = true,
+        conflicts_with_all = ["curve", "shards", "misses", "lanes", "dram", "dinero", "miss_chain", "private", "counts", "add"])]
+    pub(super) prefetch: Option<Prefetcher>,
     /// Count the windows of one part of a trace of windows, and write what --add adds to that of the others, instead of a table
     ///
     /// A window begins with empty caches, so what is counted of it is the same wherever that is. Without windows caches go on from

@@ -10,7 +10,7 @@ const DIGITS: u8 = 5;
 /// What was found of one cache.
 pub(super) enum Found {
     /// Counts of the trace as it is.
-    Exact(CacheCounts),
+    Exact(Box<CacheCounts>),
     /// Estimates of the stream that the trace has windows of.
     Windows(WindowedCounts),
 }

@@ -95,7 +95,7 @@ impl Results {
 
     /// Adds what was found of a trace with so many searches in flight.
     pub(super) fn add(&mut self, args: &Args, source: &Source, lanes: u16, findings: Findings) -> anyhow::Result<()> {
-        let result = |counts| source.result(lanes, Found::Exact(counts), findings.result_bytes);
+        let result = |counts| source.result(lanes, Found::Exact(Box::new(counts)), findings.result_bytes);
         self.rows.extend(findings.caches.into_iter().map(result));
         let mut exact = findings.curves.into_iter().map(Rc::new);
         let mut sampled = findings.sampled.into_iter().map(Rc::new);

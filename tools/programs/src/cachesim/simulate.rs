@@ -6,7 +6,7 @@ use super::results::{Results, Source};
 use super::{Args, windowed};
 use crate::cli::{Progress, named, open_bytes, room_for, usage};
 use anyhow::Context as _;
-use pm_caches::{LaneSink, Lanes, Measures, PrivateCaches, Simulation};
+use pm_caches::{LaneSink, Lanes, Measures, PrefetchError, Prefetching, PrivateCaches, Simulation};
 use pm_exchange::traces::{self, Opened, Trace, TraceImport};
 use pm_formats::trace::{Access, Coding, Region, TraceReader, TraceSink};
 use pm_registry::Registry;
@@ -55,6 +55,9 @@ fn simulate(
         Opened::Foreign(mut trace) => {
             if args.lanes.iter().any(|&lanes| lanes > 1) || !args.private.is_empty() {
                 return Err(usage(format!("{name}: {NO_SEARCHES}")));
+            }
+            if args.prefetch.is_some() {
+                return Err(usage(format!("{name}: --prefetch: {}", PrefetchError::NoRegions)));
             }
             check_waits(args, trace.regions()).context(name.clone())?;
             let caches = questions.caches_of(args, trace.regions()).context(name.clone())?;
@@ -125,6 +128,13 @@ fn simulate_ours<R: Read>(
         let rows = windows.finish(Some(sample.windows), sample.share);
         results.add_windows(&Source::ours(path, trace.header(), &trace.end()?), rows);
         return Ok(());
+    }
+    if let Some(prefetcher) = args.prefetch {
+        let prefetching = Prefetching::new(&regions, configs, &measures, prefetcher);
+        let mut prefetching = prefetching.map_err(|error| usage(format!("--prefetch: {error}")))?;
+        replay(args, &mut trace, &mut prefetching)?;
+        let source = Source::ours(path, trace.header(), &trace.end()?);
+        return results.add(args, &source, 1, prefetching.findings());
     }
     if !args.private.is_empty() {
         let private = |&elements: &u16| -> anyhow::Result<_> {

@@ -54,6 +54,7 @@ pub(super) fn refuse(args: &Args) -> anyhow::Result<()> {
         () if args.miss_chain => "--miss-chain: what a window does not know is told in lines, not in chains",
         () if args.curve => "--curve: the state of an unbounded cache is never exact in a window",
         () if args.shards.is_some() => "--shards: the state of an unbounded cache is never exact in a window",
+        () if args.prefetch.is_some() => "--prefetch: what was prefetched before a window is not known",
         () if !args.private.is_empty() => "--private: searches of a window are a stretch of one element's, not of all",
         () if !args.lanes.is_empty() => "--lanes: searches of other windows would be in flight with those of this one",
         () => return Ok(()),

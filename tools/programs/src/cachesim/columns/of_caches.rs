@@ -3,7 +3,7 @@
 use super::super::cache_result::{CacheResult, SetsOf, column_name};
 use super::totals::{BYTES, FETCHES, NONE};
 use super::{Columns, perhaps};
-use pm_caches::{CacheCounts, Distribution, PrivateCounts};
+use pm_caches::{CacheCounts, Distribution, PrefetchCounts, PrivateCounts};
 use pm_report::{Format, Table, Value};
 use std::collections::BTreeSet;
 
@@ -36,6 +36,7 @@ pub(in super::super) fn of_caches(format: Format, results: &[CacheResult]) -> Ta
         .dinero(results)
         .dram(results)
         .miss_chains(results)
+        .prefetch(results)
         .private(results)
         .working_sets()
         .other_traffic()
@@ -123,6 +124,25 @@ impl Columns<CacheResult> {
             true,
             move |of| perhaps(of_chains(of).and_then(|it| it.max()).map(u64::from)),
         )
+    }
+
+    /// What was prefetched, if somebody asked.
+    fn prefetch(self, results: &[CacheResult]) -> Self {
+        let of_prefetch = |of: &CacheResult| of.counts().and_then(|counts| counts.more.prefetch);
+        if !results.iter().any(|of| of_prefetch(of).is_some()) {
+            return self;
+        }
+        let count = move |of: &CacheResult, count: fn(PrefetchCounts) -> u64| perhaps(of_prefetch(of).map(count));
+        let ratio = move |of: &CacheResult, ratio: fn(&PrefetchCounts) -> f64| {
+            of_prefetch(of).map_or(f64::NAN, |it| ratio(&it))
+        };
+        self.text("prefetch", false, move |of| of_prefetch(of).map_or(String::new(), |it| it.prefetcher.to_string()))
+            .number("fetches_unprefetched", false, move |of| count(of, |it| it.fetches_without))
+            .number("prefetched", true, move |of| count(of, |it| it.prefetched))
+            .number("prefetch_used", false, move |of| count(of, |it| it.used))
+            .ratio("prefetch_accuracy", true, move |of| ratio(of, PrefetchCounts::accuracy))
+            .ratio("prefetch_coverage", true, move |of| ratio(of, PrefetchCounts::coverage))
+            .ratio("prefetch_traffic", true, move |of| ratio(of, PrefetchCounts::traffic))
     }
 
     /// Private caches and what they share, if there are several.
