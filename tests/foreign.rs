@@ -1,26 +1,9 @@
 //! Do traces of other simulators come in and go out, with the counts that they must have?
 
-use crate::support::{Folder, same_text};
+use crate::support::{Folder, row, same_text};
 use pm_formats::trace::{Access, AccessKind, BlockEncoder, Coding, TraceWriter, lay_out};
 use pm_formats::{BlockMeta, Header};
 use std::collections::BTreeMap;
-
-/// Columns of the first row of CSV, by name; quoted fields keep their commas.
-fn row(csv: &str) -> BTreeMap<String, String> {
-    let mut lines = csv.lines().map(|line| {
-        let (mut fields, mut quoted) = (vec![String::new()], false);
-        for letter in line.chars() {
-            match letter {
-                '"' => quoted = !quoted,
-                ',' if !quoted => fields.push(String::new()),
-                _ => fields.last_mut().unwrap().push(letter),
-            }
-        }
-        fields
-    });
-    let (names, values) = (lines.next().expect("names"), lines.next().expect("a row"));
-    names.into_iter().zip(values).collect()
-}
 
 const CACHES: [&str; 4] = ["2K,full,64,lru", "2K,4,64,lru", "2K,1,64,lru", "16K,8,64,lru"];
 

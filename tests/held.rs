@@ -1,5 +1,6 @@
 //! Does irradiance held in bricks or hashed cells give nearly the same light for far fewer reads, and the same picture in any order?
 
+use crate::furnace::radiance_is_the_known_one;
 use crate::streams::{check, searches};
 use crate::support::{Folder, SMALL, same_bytes};
 use pm_formats::BlockReader;
@@ -11,20 +12,8 @@ fn words() -> Vec<&'static str> {
 
 #[test]
 fn in_a_furnace_the_radiance_is_the_known_one() {
-    let folder = Folder::new();
-    let furnace = format!("{}/../../scenes/furnace.obj", env!("CARGO_MANIFEST_DIR"));
-    folder.run(&format!("pm-photons {furnace} -n 100000 -t 2 -o map.pmp")).ok();
-    folder.run(&format!("pm-queries {furnace} --size 16x16 --gathers 36 -t 2 --base base.exr -o q.pmq")).ok();
-    for word in words() {
-        let line = format!("pm-gather -q map.pmp q.pmq --map {word} -t 2 --no-trace --base base.exr");
-        folder.run(&format!("{line} --image x.exr")).ok();
-        let picture = Picture::decode_exr(&folder.read("x.exr")).unwrap();
-        let count = picture.pixels.len() as f64;
-        for (channel, known) in [1.25, 2.0, 5.0].into_iter().enumerate() {
-            let mean = picture.pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / count;
-            assert!((mean / known - 1.0).abs() < 0.02, "{word}, channel {channel}: {mean} for {known}");
-        }
-    }
+    let options = words().into_iter().map(|word| format!("--map {word}"));
+    radiance_is_the_known_one(100_000, "--size 16x16 --gathers 36", options);
 }
 
 #[test]

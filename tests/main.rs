@@ -16,6 +16,7 @@ mod dram;
 mod estimates;
 mod files;
 mod foreign;
+mod furnace;
 mod fuzz;
 mod guide;
 mod held;

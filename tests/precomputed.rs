@@ -1,5 +1,6 @@
 //! Does precomputed irradiance give nearly the same light for far fewer reads, and the same picture in any order?
 
+use crate::furnace::radiance_is_the_known_one;
 use crate::streams::{Search, check, records, searches};
 use crate::support::{Folder, SMALL, same_bytes};
 use pm_formats::{BlockReader, Query};
@@ -11,20 +12,8 @@ fn scene(name: &str) -> String {
 
 #[test]
 fn in_a_furnace_the_radiance_is_the_known_one() {
-    let folder = Folder::new();
-    let furnace = scene("furnace.obj");
-    folder.run(&format!("pm-photons {furnace} -n 300000 -t 2 -o map.pmp")).ok();
-    folder.run(&format!("pm-queries {furnace} --size 24x24 --gathers 64 -t 2 --base base.exr -o q.pmq")).ok();
-    for k in [50, 100] {
-        let line = format!("pm-gather -q map.pmp q.pmq --precomputed -k {k} -t 2 --no-trace --base base.exr");
-        folder.run(&format!("{line} --image x.exr")).ok();
-        let picture = Picture::decode_exr(&folder.read("x.exr")).unwrap();
-        let count = picture.pixels.len() as f64;
-        for (channel, known) in [1.25, 2.0, 5.0].into_iter().enumerate() {
-            let mean = picture.pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / count;
-            assert!((mean / known - 1.0).abs() < 0.02, "k = {k}, channel {channel}: {mean} for {known}");
-        }
-    }
+    let options = [50, 100].map(|k| format!("--precomputed -k {k}"));
+    radiance_is_the_known_one(300_000, "--size 24x24 --gathers 64", options);
 }
 
 #[test]

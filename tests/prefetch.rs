@@ -1,23 +1,7 @@
 //! What is prefetched through the programs: is what is said of the cache without what a run without says, and what is refused?
 
-use crate::support::Folder;
+use crate::support::{Folder, row};
 use std::collections::BTreeMap;
-
-/// The first row of a table, by the names of its columns.
-fn row(csv: &str) -> BTreeMap<String, String> {
-    let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned));
-    let (names, values) = (lines.next().expect("names"), lines.next().expect("a row"));
-    // The cache has commas in it, within quotes.
-    let line = csv.lines().nth(1).expect("a row");
-    let quoted =
-        line.split('"').enumerate().map(|(i, part)| if i % 2 == 1 { part.replace(',', " ") } else { part.into() });
-    let values = if line.contains('"') {
-        quoted.collect::<String>().split(',').map(str::to_owned).collect::<Vec<_>>()
-    } else {
-        values.collect()
-    };
-    names.zip(values).collect()
-}
 
 #[test]
 fn the_cache_without_is_that_of_a_run_without_and_lines_add_up() {

@@ -1,5 +1,6 @@
 //! Helpers: a fresh folder, commands that run in it, and what came of them.
 
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{Read as _, Seek as _, Write as _};
@@ -191,6 +192,13 @@ pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
         assert!(start.elapsed() < PATIENCE, "not in {PATIENCE:?}: {what}");
         std::thread::sleep(Duration::from_millis(1));
     }
+}
+
+/// Columns of the first row of CSV, by name.
+#[track_caller]
+pub(crate) fn row(csv: &str) -> BTreeMap<String, String> {
+    let mut rows = csv::Reader::from_reader(csv.as_bytes()).into_deserialize();
+    rows.next().expect("a row").expect("names and values")
 }
 
 /// Two byte strings must be equal; says where they part.

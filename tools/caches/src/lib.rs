@@ -21,8 +21,9 @@
 //! * Belady's **optimum** minimises line accesses that miss, those of warm-up among them; with sets, of each set by itself.
 //!   It does not minimise write-backs, which are counted for what it keeps.
 //!
-//! [`Prefetching`] brings in more than was missed. With [`Lanes`] in front, several searches are in flight at a time over the same cache. [`Windows`] runs each window of a
-//! sampled trace through caches that begin empty, and estimates what the whole would have cost.
+//! [`Prefetching`] brings in more than was missed. With [`Lanes`] in front, several searches are in flight at a time over the
+//! same cache. [`Windows`] runs each window of a sampled trace through caches that begin empty, and estimates what the whole
+//! would have cost.
 //!
 //! # To add a policy
 //!
