@@ -4,6 +4,8 @@ use crate::Recipe;
 use crate::model::{Model, Parts};
 use crate::recipe::DESIGNS;
 use crate::survey::KS;
+use crate::task::is_large;
+use std::sync::LazyLock;
 
 /// A recipe with what it gives and takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,14 +34,21 @@ const PHOTONS: [u64; 2] = [5_000, 20_000_000];
 /// Fewest photons of caustics that are planned with.
 const CAUSTICS: u64 = 6_250;
 
+/// How often planning traces the photons of what is chosen: for two maps of a trial and two that are sharper, and for small pictures
+/// by which time is measured.
+const TRACED: f64 = 10.0;
+
 /// The cheapest recipe whose error is at most `error` even at the upper bound of its interval, `errors` standard errors off; all
 /// that were looked at, cheapest first, one for each combination of all but the eye rays. `caustics` is the most photons of
-/// caustics there may be.
+/// caustics there may be. Of a large picture, what counts is what it costs until it is there: photons are traced by planning too,
+/// however few pixels that makes.
 #[must_use]
 pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64) -> Vec<Choice> {
     let mut found: Vec<Choice> =
         skeletons(caustics).filter_map(|recipe| least_samples(model, recipe, pixels, error, errors)).collect();
-    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let traced = if is_large(pixels) { TRACED } else { 0.0 };
+    let with_planning = |choice: &Choice| choice.cost + traced * model.cost(&choice.recipe, 0.0);
+    found.sort_by(|a, b| with_planning(a).total_cmp(&with_planning(b)));
     found
 }
 
@@ -76,8 +85,7 @@ fn frontier_among(recipes: &[Recipe], model: &Model, pixels: f64, errors: &[f64]
 pub fn nearest_in(model: &Model, pixels: f64, cost: f64, caustics: u64) -> Option<Choice> {
     let with_most_samples = |recipe: Recipe| {
         let affordable = |samples: &u32| model.cost(&Recipe { samples: *samples, ..recipe }, pixels) <= cost;
-        let all = grids();
-        let samples = all[..all.partition_point(affordable)].last().copied()?;
+        let samples = GRIDS[..GRIDS.partition_point(affordable)].last().copied()?;
         Some(choice(model, Recipe { samples, ..recipe }, pixels))
     };
     let all = skeletons(caustics).filter_map(with_most_samples);
@@ -116,13 +124,13 @@ fn levels(least: u64, most: u64) -> Vec<u64> {
 }
 
 /// Numbers of eye rays that fill a grid.
-fn grids() -> Vec<u32> {
+static GRIDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
     let mut all: Vec<u32> = vec![];
     while let Some(next) = Recipe::grid(all.last().map_or(0.0, |&last| f64::from(last) + 1.0)) {
         all.push(next);
     }
     all
-}
+});
 
 /// The recipe with as few eye rays as will do.
 fn least_samples(model: &Model, recipe: Recipe, pixels: f64, error: f64, errors: f64) -> Option<Choice> {
@@ -130,8 +138,7 @@ fn least_samples(model: &Model, recipe: Recipe, pixels: f64, error: f64, errors:
         let total = model.predict(&Recipe { samples: *samples, ..recipe }).total();
         total.value + errors * libm::sqrt(total.spread.variance) > error * error
     };
-    let all = grids();
-    let samples = *all.get(all.partition_point(fails))?;
+    let samples = *GRIDS.get(GRIDS.partition_point(fails))?;
     Some(choice(model, Recipe { samples, ..recipe }, pixels))
 }
 

@@ -119,7 +119,7 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
     let start = (task.clock)();
     (task.doing)("edges of lamps");
     let preview = Preview::of(task);
-    let mut effort = wanted.effort;
+    let mut effort = if task.is_large() { wanted.effort.halved() } else { wanted.effort };
     if task.search_bytes.is_some() {
         (task.doing)("bytes of searches, by photons and neighbours");
     }
@@ -133,14 +133,20 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
         // The interval a trial will have, by and large: that of so many pixels.
         let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
         best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
-        // Extrapolated far beyond the largest map: a larger one is traced if that is cheap beside what is planned.
+        // What was halved is made whole, and where it is extrapolated far beyond the largest map a larger one is traced, if that is
+        // cheap beside what is planned.
         let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
         let takes = |choice: &Choice| model.times().of(&choice.recipe, task.pixels());
         let cost = best.first().map_or(f64::INFINITY, takes).min(wanted.seconds);
-        if !beyond || effort.photons >= MOST_SURVEYED || took * 4.0 > cost * WORTH {
+        if took * 4.0 > cost * WORTH {
+            break;
+        } else if effort.pixels < wanted.effort.pixels {
+            effort = wanted.effort;
+        } else if beyond && effort.photons < MOST_SURVEYED {
+            effort.photons *= 4;
+        } else {
             break;
         }
-        effort.photons *= 4;
     }
     // Trials of it would take hours themselves.
     if let Some(&choice) =

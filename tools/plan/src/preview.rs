@@ -20,7 +20,7 @@ pub(crate) struct Preview {
 }
 
 /// Blocks at most: a larger picture is looked at with fewer eye rays than pixels.
-const MOST_BLOCKS: f64 = (1 << 18) as f64;
+const MOST_BLOCKS: f64 = (1 << 16) as f64;
 /// The share of choices that are made with no regard to edges.
 const PLAIN: f64 = 0.7;
 /// How much more often than others a pixel may be chosen.

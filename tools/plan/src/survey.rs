@@ -24,6 +24,13 @@ pub struct Effort {
     pub photons: u64,
 }
 
+impl Effort {
+    /// Half of it, which takes about a third of the time.
+    pub(crate) const fn halved(self) -> Self {
+        Self { pixels: self.pixels.div_ceil(2), photons: self.photons.div_ceil(2) }
+    }
+}
+
 /// Neighbours asked for, of which the first make the picture that bias is measured against.
 pub(crate) const KS: [u32; 5] = [5, 10, 20, 40, 80];
 /// The neighbours with which the numbers of rays are compared.
@@ -61,8 +68,6 @@ pub struct Survey {
     pub times: Times,
     /// The same in bytes, where these are what is to be saved.
     pub traffic: Option<Traffic>,
-    /// Photons of the largest map.
-    pub(crate) photons: u64,
     /// Share of the picture's pixels that was looked at.
     pub(crate) share: f64,
 }
@@ -89,13 +94,14 @@ impl Survey {
     pub(crate) fn measure(task: &Task<'_>, preview: &Preview, effort: Effort) -> Result<Self, PlanError> {
         let pixels = &Pixels::choose(preview, effort.pixels, task.seed);
         let share = pixels.len() as f64 / task.pixels();
-        let mut survey = Self { photons: effort.photons, share, ..Self::default() };
+        let mut survey = Self { share, ..Self::default() };
         let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(2, m), false));
-        let soft = Asked::soft(task, pixels, effort, &mut traced, &mut survey.times)?;
+        let (soft, map) = Asked::soft(task, pixels, effort, &mut traced, &mut survey.times)?;
         if soft.sets[0].queries.is_empty() && soft.sets[0].light.iter().flatten().all(|&x| x == 0.0) {
             return Err(PlanError::NothingSeen);
         }
-        let caustics = if task.caustics > 0 { Some(Asked::caustics(task, pixels, &mut survey.times)?) } else { None };
+        let caustics =
+            if task.caustics > 0 { Some(Asked::caustics(task, pixels, effort, &mut survey.times)?) } else { None };
         let least_biased = |asked: &Asked| mean(asked.whole.iter().flatten().map(|by_k| &by_k[0]));
         let mut truth = sum(&mean(soft.sets.iter().map(|set| &set.light)), &least_biased(&soft));
         if let Some(caustics) = &caustics {
@@ -107,26 +113,18 @@ impl Survey {
         let weights = Weights::of(&truth).times(&pixels.stand_for);
         survey.soft = soft.layer(&weights, &KS);
         survey.caustics = caustics.map(|asked| asked.layer(&weights, &[Times::CAUSTICS_K]));
-        survey.compare_rays(task, pixels, &mut traced[0], &weights)?;
+        survey.compare_rays(task, pixels, &map.for_others(&[KS[USUAL_K]]), &weights);
         Ok(survey)
     }
 
     /// Measures what other numbers of rays do, and what they cost.
-    fn compare_rays(
-        &mut self,
-        task: &Task<'_>,
-        pixels: &Pixels,
-        traced: &mut Traced<'_>,
-        weights: &Weights,
-    ) -> Result<(), PlanError> {
-        let map = Map::build(traced.first(self.photons).ok_or(PlanError::Dark)?, KS[USUAL_K])?;
-        let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
+    fn compare_rays(&mut self, task: &Task<'_>, pixels: &Pixels, map: &Map<'_>, weights: &Weights) {
         let pilot = |design: Design| {
             let start = (task.clock)();
             let sets = [0, 1]
                 .map(|r| cast(task.scene, task.camera, &pixels.at, design.soft(task.seed_of(1, r), task.caustics > 0)));
             let seconds = (task.clock)() - start;
-            let [a, b] = sets.map(|set| sum(&set.light, &map.values(asking, &set, &KS[USUAL_K..=USUAL_K]).remove(0)));
+            let [a, b] = sets.map(|set| sum(&set.light, &map.values(&set).remove(0)));
             (weights.variance(&a, &b), seconds / (2 * pixels.len() as u32 * design.samples) as f64)
         };
         for (design, [gathers, light_samples]) in DESIGNS.into_iter().enumerate() {
@@ -138,44 +136,42 @@ impl Survey {
         let (more, _) = pilot(Design { samples: 4 * PILOT.samples, ..PILOT });
         let few = self.rays[nth_design(PILOT.gathers, PILOT.light_samples)].value;
         self.edges = if few > 0.0 { (2.0 * (1.0 - 4.0 * more.value / few)).clamp(0.0, 0.95) * few } else { 0.0 };
-        Ok(())
     }
 }
 
 impl Asked {
-    fn soft(
-        task: &Task<'_>,
+    /// Beside it, the map of all photons of the first trace.
+    fn soft<'a>(
+        task: &Task<'a>,
         pixels: &Pixels,
         effort: Effort,
-        traced: &mut [Traced<'_>; 2],
+        traced: &'a mut [Traced<'_>; 2],
         times: &mut Times,
-    ) -> Result<Self, PlanError> {
+    ) -> Result<(Self, Map<'a>), PlanError> {
         let options = |r| PILOT.soft(task.seed_of(1, r), task.caustics > 0);
         let sets = [0, 1].map(|r| cast(task.scene, task.camera, &pixels.at, options(r)));
         let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
-        for traced in traced.iter_mut() {
-            traced.first(effort.photons).ok_or(PlanError::Dark)?;
-        }
-        let asked = Self::ask(sets, asking, traced, effort.photons, &KS)?;
-        // What takes how long is measured where nothing else is done: the way it will be done.
-        times.photon = timed_tracing(task, effort.photons, false)?;
+        times.photon = timed_tracing(task, &mut traced[0], effort.photons, asking)?;
         times.of = effort.photons;
+        let traced = both(traced, effort.photons)?;
+        let (asked, map) = Self::ask(sets, asking, traced, effort.photons, &KS)?;
+        // What takes how long is measured where nothing else is done: the way it will be done.
         let queries = asked.sets[0].queries.len().max(1) as f64;
-        let mut time_of = |n: u64, k: u32| -> Result<f64, PlanError> {
-            let map = Map::build(traced[0].first(n).ok_or(PlanError::Dark)?, k)?;
+        let time_of = |map: &Map<'_>| {
             let start = (task.clock)();
-            map.values(asking, &asked.sets[0], &[k]);
-            Ok(((task.clock)() - start) / queries)
+            map.values(&asked.sets[0]);
+            ((task.clock)() - start) / queries
         };
-        times.searches = KS.iter().map(|&k| Ok((k, time_of(effort.photons, k)?))).collect::<Result<_, PlanError>>()?;
-        let smaller = time_of(asked.sizes[0], KS[USUAL_K])?;
+        times.searches = KS.iter().map(|&k| (k, time_of(&map.for_others(&[k])))).collect();
+        let smaller = traced[0].known(asked.sizes[0]).ok_or(PlanError::Dark)?;
+        let smaller = time_of(&Map::build(smaller, asking, &[KS[USUAL_K]])?);
         let ratio = smaller / times.searches[USUAL_K].1.max(1e-12);
         let apart = libm::log(effort.photons as f64 / asked.sizes[0] as f64);
         times.growth = if apart > 0.0 { ((1.0 - ratio) / apart).clamp(0.0, 0.3) } else { 0.0 };
-        Ok(asked)
+        Ok((asked, map))
     }
 
-    fn caustics(task: &Task<'_>, pixels: &Pixels, times: &mut Times) -> Result<Self, PlanError> {
+    fn caustics(task: &Task<'_>, pixels: &Pixels, effort: Effort, times: &mut Times) -> Result<Self, PlanError> {
         // Of a point's light all caustics come by one map: one eye ray in a pilot would tell, more are as in a picture.
         let options = |r| Design::seen(PILOT.samples, task.seed_of(3, r));
         let start = (task.clock)();
@@ -184,40 +180,39 @@ impl Asked {
         let start = (task.clock)();
         let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(4, m), true));
         times.aiming = ((task.clock)() - start) / 2.0;
-        let most = task.caustics.min(MOST_CAUSTICS);
-        times.caustic = timed_tracing(task, most, true)?;
+        let most = task.caustics.min(MOST_CAUSTICS).min(effort.photons * 5 / 4);
         let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
-        let asked = Self::ask(sets, asking, &mut traced, most, &[Times::CAUSTICS_K])?;
+        times.caustic = timed_tracing(task, &mut traced[0], most, asking)?;
+        let (asked, map) = Self::ask(sets, asking, both(&mut traced, most)?, most, &[Times::CAUSTICS_K])?;
         let points = (2 * pixels.len() as u32 * PILOT.samples) as f64;
-        let map = Map::build(traced[0].first(most).ok_or(PlanError::Dark)?, Times::CAUSTICS_K)?;
         let start = (task.clock)();
-        map.values(asking, &asked.sets[0], &[Times::CAUSTICS_K]);
+        map.values(&asked.sets[0]);
         let searched = (task.clock)() - start;
         times.seen = (cast_in + 2.0 * searched) / points;
         Ok(asked)
     }
 
-    fn ask(
+    /// Beside it, the map of all photons of the first trace.
+    fn ask<'a>(
         sets: [RaySet; 2],
-        asking: Asking<'_>,
-        traced: &mut [Traced<'_>; 2],
+        asking: Asking<'a>,
+        traced: &'a [Traced<'_>; 2],
         most: u64,
         ks: &[u32],
-    ) -> Result<Self, PlanError> {
-        let most_k = ks[ks.len() - 1];
-        let seen_in = |photons: Photons<'_>| -> Result<BySet, PlanError> {
-            let map = Map::build(photons, most_k)?;
-            Ok([0, 1].map(|r: usize| map.values(asking, &sets[r], ks)))
-        };
-        let (mut whole, mut lots) = (vec![], vec![]);
+    ) -> Result<(Self, Map<'a>), PlanError> {
+        let of_sets = |map: &Map<'_>| [0, 1].map(|r: usize| map.values(&sets[r]));
+        let build = |photons: Photons<'a>| Map::build(photons, asking, ks);
+        let mut lots = vec![];
         let mut of_lot = 0;
+        let mut maps = vec![];
         for traced in traced {
-            whole.push(seen_in(traced.first(most).ok_or(PlanError::Dark)?)?);
+            maps.push(build(traced.known(most).ok_or(PlanError::Dark)?)?);
             let dealt = traced.lots(LOTS);
             of_lot += dealt.iter().map(|lot| lot.photons.len() as u64).sum::<u64>();
-            lots.push(dealt.into_iter().map(seen_in).collect::<Result<_, _>>()?);
+            lots.push(dealt.into_iter().map(|lot| Ok(of_sets(&build(lot)?))).collect::<Result<_, PlanError>>()?);
         }
-        Ok(Self { sets, sizes: [of_lot / (2 * LOTS as u64), most], lots, whole })
+        let whole = maps.iter().map(of_sets).collect();
+        Ok((Self { sets, sizes: [of_lot / (2 * LOTS as u64), most], lots, whole }, maps.swap_remove(0)))
     }
 
     /// What the photons and the radius are to blame for.
@@ -253,13 +248,23 @@ impl Asked {
 /// Photons of caustics that are traced in a survey at most.
 const MOST_CAUSTICS: u64 = 200_000;
 
-/// Seconds of processor time that a photon takes to be traced and put into a map.
-fn timed_tracing(task: &Task<'_>, n: u64, caustics: bool) -> Result<f64, PlanError> {
-    let mut traced = Traced::new(task.scene, task.seed_of(5, 0), caustics);
-    let n = n.min(50_000);
+/// Both with at least so many photons.
+fn both<'a, 'b>(traced: &'a mut [Traced<'b>; 2], most: u64) -> Result<&'a [Traced<'b>; 2], PlanError> {
+    for traced in traced.iter_mut() {
+        traced.first(most).ok_or(PlanError::Dark)?;
+    }
+    Ok(traced)
+}
+
+/// Photons by which tracing is timed, at most.
+const TIMED: u64 = 50_000;
+
+/// Seconds of processor time that a photon takes to be traced and put into a map, by the first of those that are wanted.
+fn timed_tracing(task: &Task<'_>, traced: &mut Traced<'_>, wanted: u64, asking: Asking<'_>) -> Result<f64, PlanError> {
+    let n = wanted.min(TIMED);
     let start = (task.clock)();
     let photons = traced.first(n).ok_or(PlanError::Dark)?;
-    Map::build(photons, KS[0])?;
+    Map::build(photons, asking, &[])?;
     Ok(((task.clock)() - start) / n as f64)
 }
 

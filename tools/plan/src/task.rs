@@ -37,6 +37,18 @@ impl Task<'_> {
         let [width, height] = self.camera.size();
         f64::from(width) * f64::from(height)
     }
+
+    /// See [`is_large`].
+    pub(crate) fn is_large(&self) -> bool {
+        is_large(self.pixels())
+    }
+}
+
+/// Does a picture of so many pixels take many seconds however it is made, as those of more than 256 x 256 do? Planning is to be cheap
+/// beside it. A smaller one is planned as well as can be, which takes longer than the picture anyway.
+#[must_use]
+pub fn is_large(pixels: f64) -> bool {
+    pixels > f64::from(1 << 16)
 }
 
 /// Why there is no plan.

@@ -47,6 +47,12 @@ impl<'a> Traced<'a> {
             }
             self.ends.push(self.photons.len());
         }
+        self.known(n)
+    }
+
+    /// The same of photons that have been traced already.
+    pub(crate) fn known(&self, n: u64) -> Option<Photons<'_>> {
+        let wanted = usize::try_from(n).ok()?;
         let last = self.ends.partition_point(|&end| end < wanted);
         let end = self.ends.get(last).copied()?;
         Some(Photons { photons: &self.photons[..end], emitted: last as u64 + 1 })

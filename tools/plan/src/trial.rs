@@ -67,7 +67,7 @@ impl Trial {
         round: u64,
     ) -> Result<Self, PlanError> {
         let pixels = Pixels::choose(preview, number, task.seed_of(6, round));
-        let (more, finer) = sharper(recipe);
+        let [(more, finer), finer_caustics] = sharper(recipe, task.is_large());
         let soft = |r: u64| -> Result<Replicate, PlanError> {
             let Recipe { samples, gathers, light_samples, .. } = *recipe;
             let design = Design { samples, gathers, light_samples };
@@ -76,8 +76,8 @@ impl Trial {
             let mut traced = Traced::new(task.scene, task.seed_of(9 + r, round), false);
             let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
             let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
-                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, k)?;
-                Ok(sum(&set.light, &map.values(asking, &set, &[k]).remove(0)))
+                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, asking, &[k])?;
+                Ok(sum(&set.light, &map.values(&set).remove(0)))
             };
             Ok(Replicate { pixels: ask(recipe.photons, recipe.k)?, sharp: ask(more, finer)? })
         };
@@ -86,11 +86,12 @@ impl Trial {
                 cast(task.scene, task.camera, &pixels.at, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
             let mut traced = Traced::new(task.scene, task.seed_of(13 + r, round), true);
             let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
-            let mut ask = |n: u64| -> Result<Values, PlanError> {
-                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, Times::CAUSTICS_K)?;
-                Ok(map.values(asking, &set, &[Times::CAUSTICS_K]).remove(0))
+            let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
+                let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, asking, &[k])?;
+                Ok(map.values(&set).remove(0))
             };
-            Ok(Replicate { pixels: ask(recipe.caustics)?, sharp: ask(4 * recipe.caustics)? })
+            let (more, finer) = finer_caustics;
+            Ok(Replicate { pixels: ask(recipe.caustics, Times::CAUSTICS_K)?, sharp: ask(more, finer)? })
         };
         let survey = &model.survey;
         let share = f64::from(finer) / more as f64;
@@ -130,9 +131,13 @@ impl Trial {
     }
 }
 
-/// Photons and neighbours that blur less.
-fn sharper(recipe: &Recipe) -> (u64, u32) {
-    let more = (4 * recipe.photons).min(MOST_REFERENCE).max(recipe.photons);
+/// Photons and neighbours that blur less: of all photons, and of caustics.
+///
+/// Beside a large picture whole traces of four times the photons would be dear. Half the neighbours of twice the photons lie within as
+/// small a radius.
+fn sharper(recipe: &Recipe, large: bool) -> [(u64, u32); 2] {
+    let (times, halves) = if large { (2, 2) } else { (4, 1) };
+    let more = (times * recipe.photons).min(MOST_REFERENCE).max(recipe.photons);
     let finer = if recipe.k > KS[0] || more > recipe.photons { KS[0].min(recipe.k) } else { recipe.k - 2 };
-    (more, finer)
+    [(more, finer), (times * recipe.caustics, Times::CAUSTICS_K / halves)]
 }

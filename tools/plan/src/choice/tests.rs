@@ -32,7 +32,7 @@ fn world(scale: f64) -> Model {
 fn by_force(model: &Model, pixels: f64, error: f64) -> f64 {
     let mut best = f64::INFINITY;
     for recipe in skeletons(0) {
-        for samples in grids() {
+        for &samples in GRIDS.iter() {
             let recipe = Recipe { samples, ..recipe };
             if model.predict(&recipe).total().value <= error * error {
                 best = best.min(model.times().of(&recipe, pixels));
@@ -51,6 +51,24 @@ fn the_cheapest_is_found() {
         assert!(found[0].parts.total().value <= error * error);
         assert!(found.windows(2).all(|two| two[0].cost <= two[1].cost));
     }
+}
+
+#[test]
+fn photons_of_a_large_picture_count_as_often_as_planning_traces_them() {
+    let model = Model {
+        survey: Survey { times: Times { photon: 1e-3, ..world(1e4).survey.times }, ..world(1e4).survey },
+        ..world(1e4)
+    };
+    let pixels = 512.0 * 512.0;
+    let found = choose(&model, pixels, 0.02, 0.0, 0);
+    let whole =
+        |choice: &Choice| model.times().of(&choice.recipe, pixels) + 10.0 * model.times().of(&choice.recipe, 0.0);
+    assert!(found.windows(2).all(|two| whole(&two[0]) <= whole(&two[1])));
+    // What is cheapest alone has more.
+    let alone = found.iter().min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap();
+    assert!(alone.recipe.photons > found[0].recipe.photons, "{alone:?} {:?}", found[0]);
+    let small = choose(&model, 100.0 * 100.0, 0.02, 0.0, 0);
+    assert!(small.windows(2).all(|two| two[0].cost <= two[1].cost));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::clock;
 use crate::pipe::Pipe;
 use anyhow::Context as _;
-use pm_plan::{Choice, Estimate, Recipe, Times};
+use pm_plan::{Choice, Estimate, Recipe, Times, is_large};
 
 /// What small pictures are made of.
 pub(super) struct Pilots<'a> {
@@ -26,7 +26,8 @@ pub(super) struct Time {
 /// Small pictures of the same size, and the share of the planned one that each is, unless that is soon done.
 const PICTURES: u32 = 4;
 const SHARE: f64 = 0.003;
-/// Seconds that a small picture shall take: less is measured badly.
+/// Seconds that a small picture shall take: less is measured badly. Where the picture is large its pixels take about as much as any
+/// of its parts, and half does.
 const LEAST: f64 = 0.2;
 
 impl Pilots<'_> {
@@ -45,7 +46,8 @@ impl Pilots<'_> {
         // What pixels take has to be told from what photons take, which is the same for the smallest picture.
         let of_photons = times.of(&choice.recipe, 0.0);
         let of_pixels = times.of(&choice.recipe, pixels) - of_photons;
-        let share = (LEAST.max(of_photons / 2.0) / of_pixels).clamp(SHARE, 1.0);
+        let least = if is_large(pixels) { LEAST / 2.0 } else { LEAST };
+        let share = (least.max(of_photons / 2.0) / of_pixels).clamp(SHARE, 1.0);
         let small = self.scaled(share);
         let tiny = self.scaled(share / 16.0);
         let of = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
