@@ -70,7 +70,7 @@ const TRIALS: u32 = 6;
 const LOOKS: f64 = 3.0;
 /// What would cost more than this share of what will do is not tried.
 const LITTLE: f64 = 0.8;
-/// Where half the trials have not found what will do, each of the others asks for so much less error.
+/// Where half the trials have not found what will do, or one of a large picture, each of the others asks for so much less error.
 const STRICTER: f64 = 0.97;
 /// Pixels that a trial makes, each twice: times those of a survey, and as a share of a large picture's.
 const MORE_TRIED: u32 = 4;
@@ -86,6 +86,8 @@ const SHARE_OF_TIME: f64 = 0.02;
 const TIMES_MADE: f64 = 3.0;
 /// Trials may take so many seconds, or this share of the picture's: what none has shown by then is not promised.
 const PATIENCE: (f64, f64) = (120.0, 0.2);
+/// Beside a large picture planning may take this share of its seconds to find one that is cheaper still.
+const ALLOWED: f64 = 0.07;
 /// Gather rays of a trial's pixels that there is memory for: a gigabyte.
 const MOST_RAYS: f64 = 16e6;
 /// Photons are traced for a survey at most.
@@ -172,12 +174,18 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
             too_dear = trials.is_empty().then_some((choice, Untried::TrialTooSlow(trying)));
             break;
         }
+        let one_does = trials.iter().any(|tried| does(&evidence.judge(&tried.choice.recipe)));
+        if one_does && task.is_large() && spent + trying > ALLOWED * takes {
+            break;
+        }
         (task.doing)(&format!("trial {trial} of {TRIALS} at most, on {pixels} pixels"));
         let found = Trial::run(task, &preview, &evidence.model(), &choice.recipe, pixels, u64::from(trial))?;
         trials.push(Tried { choice, error: found.total });
         evidence.add(&choice.recipe, found);
         let tried = |next: &Choice| trials.iter().any(|tried| tried.choice.recipe == next.recipe);
-        let strict = libm::pow(STRICTER, f64::from(trial.saturating_sub(TRIALS / 2)));
+        // Each trial of a large picture is dear.
+        let patient = if task.is_large() { 1 } else { TRIALS / 2 };
+        let strict = libm::pow(STRICTER, f64::from(trial.saturating_sub(patient)));
         best = chosen_again(task, &Wanted { error: wanted.error * strict, ..*wanted }, &evidence, &choice.recipe);
         best.retain(|next| !tried(next) || does(&evidence.judge(&next.recipe)));
         // What would be tried next has been, or saves little beside what will do: there is no more to learn that is worth it.

@@ -50,6 +50,8 @@ impl Replicate {
 
 /// Photons of the map that blur is measured against, at most, unless the recipe has more.
 const MOST_REFERENCE: u64 = 1_000_000;
+/// The same beside a large picture.
+const MOST_BESIDE: u64 = 250_000;
 
 impl Trial {
     /// A spread of it, relative to its error.
@@ -136,8 +138,8 @@ impl Trial {
 /// Beside a large picture whole traces of four times the photons would be dear. Half the neighbours of twice the photons lie within as
 /// small a radius.
 fn sharper(recipe: &Recipe, large: bool) -> [(u64, u32); 2] {
-    let (times, halves) = if large { (2, 2) } else { (4, 1) };
-    let more = (times * recipe.photons).min(MOST_REFERENCE).max(recipe.photons);
+    let (times, halves, most) = if large { (2, 2, MOST_BESIDE) } else { (4, 1, MOST_REFERENCE) };
+    let more = (times * recipe.photons).min(most).max(recipe.photons);
     let finer = if recipe.k > KS[0] || more > recipe.photons { KS[0].min(recipe.k) } else { recipe.k - 2 };
     [(more, finer), (times * recipe.caustics, Times::CAUSTICS_K / halves)]
 }
