@@ -121,35 +121,7 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
     let start = (task.clock)();
     (task.doing)("edges of lamps");
     let preview = Preview::of(task);
-    let mut effort = if task.is_large() { wanted.effort.halved() } else { wanted.effort };
-    if task.search_bytes.is_some() {
-        (task.doing)("bytes of searches, by photons and neighbours");
-    }
-    let traffic = task.search_bytes.map(Traffic::measure).transpose().map_err(PlanError::Traffic)?;
-    let (mut model, mut best);
-    loop {
-        (task.doing)(&format!("survey of {} pixels, with {} photons", effort.pixels, effort.photons));
-        let before = (task.clock)();
-        model = Model::new(Survey { traffic: traffic.clone(), ..Survey::measure(task, &preview, effort)? });
-        let took = (task.clock)() - before;
-        // The interval a trial will have, by and large: that of so many pixels.
-        let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
-        best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
-        // What was halved is made whole, and where it is extrapolated far beyond the largest map a larger one is traced, if that is
-        // cheap beside what is planned.
-        let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
-        let takes = |choice: &Choice| model.times().of(&choice.recipe, task.pixels());
-        let cost = best.first().map_or(f64::INFINITY, takes).min(wanted.seconds);
-        if took * 4.0 > cost * WORTH {
-            break;
-        } else if effort.pixels < wanted.effort.pixels {
-            effort = wanted.effort;
-        } else if beyond && effort.photons < MOST_SURVEYED {
-            effort.photons *= 4;
-        } else {
-            break;
-        }
-    }
+    let (model, mut best) = surveyed(task, wanted, &preview)?;
     // Trials of it would take hours themselves.
     if let Some(&choice) =
         best.first().filter(|best| model.times().of(&best.recipe, task.pixels()) > BY_FAR * wanted.seconds)
@@ -217,6 +189,38 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
         }),
         None => Err(NoPlan { model, untried: too_dear }),
     })
+}
+
+/// A survey, and what is to be tried by it, the cheapest first.
+fn surveyed(task: &Task<'_>, wanted: &Wanted, preview: &Preview) -> Result<(Model, Vec<Choice>), PlanError> {
+    if task.search_bytes.is_some() {
+        (task.doing)("bytes of searches, by photons and neighbours");
+    }
+    let traffic = task.search_bytes.map(Traffic::measure).transpose().map_err(PlanError::Traffic)?;
+    let mut effort = if task.is_large() { wanted.effort.halved() } else { wanted.effort };
+    loop {
+        (task.doing)(&format!("survey of {} pixels, with {} photons", effort.pixels, effort.photons));
+        let before = (task.clock)();
+        let model = Model::new(Survey { traffic: traffic.clone(), ..Survey::measure(task, preview, effort)? });
+        let took = (task.clock)() - before;
+        // The interval a trial will have, by and large: that of so many pixels.
+        let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
+        let best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
+        let takes = |choice: &Choice| model.times().of(&choice.recipe, task.pixels());
+        let cost = best.first().map_or(f64::INFINITY, takes).min(wanted.seconds);
+        // What was halved is made whole, and where it is extrapolated far beyond the largest map a larger one is traced, if that is
+        // cheap beside what is planned.
+        let beyond = best.first().is_none_or(|choice| choice.recipe.photons > 2 * effort.photons);
+        if took * 4.0 > cost * WORTH {
+            return Ok((model, best));
+        } else if effort.pixels < wanted.effort.pixels {
+            effort = wanted.effort;
+        } else if beyond && effort.photons < MOST_SURVEYED {
+            effort.photons *= 4;
+        } else {
+            return Ok((model, best));
+        }
+    }
 }
 
 /// Pixels of a trial: the larger the picture, the more are worth it; but neither more time than that nor more memory than there

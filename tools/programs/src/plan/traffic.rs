@@ -99,7 +99,7 @@ pub(super) struct Fetched {
 
 /// Searches of a sample, about.
 const SAMPLE: u64 = 60_000;
-/// Searches of a window in scanline order, and of those before it that fill the cache.
+/// Searches of a window where they come as they are cast, and of those before it that fill the cache.
 const WINDOW: [u64; 2] = [400, 1600];
 /// Of a large picture: the rays of a row are cast from its beginning, and its rows are long.
 const LONG_WINDOW: [u64; 2] = [2400, 1600];
@@ -223,21 +223,21 @@ impl<'a> Chip<'a> {
         if width * height * searches.of_pixel(recipe) <= 2 * SAMPLE {
             return vec![];
         }
-        let seed = ["--sample-seed".to_owned(), (self.seed ^ wanted).to_string()];
+        let seed = ["--sample-seed".to_owned(), self.seed.wrapping_add(u64::from(wanted != SAMPLE)).to_string()];
         let side = match order {
-            Order::Scanline => {
+            // Searches without an order of their own are a window anywhere, and those before it fill the cache.
+            Order::Scanline | Order::Tiled => {
                 let [window, warm_up] = if self.is_large() { LONG_WINDOW } else { WINDOW };
-                let of_row = width * searches.of_pixel(recipe);
+                let pixels = if order == Order::Scanline { width } else { width * height };
+                let of_row = pixels * searches.of_pixel(recipe);
                 let warm_up = warm_up.min(of_row.saturating_sub(window));
                 let windows = (wanted / (window + warm_up)).max(8).min(height);
                 let numbers = [("--only-tiles", windows), ("--window", window.min(of_row)), ("--warm-up", warm_up)];
                 let words = numbers.into_iter().flat_map(|(name, number)| [name.to_owned(), number.to_string()]);
                 return words.chain(seed).collect();
             }
-            Order::Tiled => TILE,
-            Order::Hilbert(side) => side,
+            Order::Hilbert(side) => u64::from(side),
         };
-        let side = u64::from(side);
         let all = width.div_ceil(side) * height.div_ceil(side);
         let tiles =
             (wanted / (side * side * searches.of_pixel(recipe))).clamp(8, if wanted < SAMPLE { 24 } else { 64 });
