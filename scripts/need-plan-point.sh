@@ -6,17 +6,13 @@ set -euo pipefail
 out=$1 room=$2 size=$3 reference=$4 wanted=$5
 here=${0%/*}
 . "$here/room.sh"
+. "$here/plan-row.sh"
 mkdir -p "$(dirname "$out")"
 plan=$(mktemp "$out.XXXXXX")
 trap 'rm -f "$plan"' EXIT
 pm-plan -q "${load[@]}" --size "$size" --error "$wanted" --format csv > "$plan"
 
-# The pipe stands first and the others are numbers up to `next_best`, so they are counted from behind the pipe.
-field() {
-    awk -v name="$1" -F, '
-        NR == 1 { for (i = 2; i <= NF; i++) if ($i == name) at = i - 1 }
-        NR == 2 { sub(/^"([^"]|"")*",/, "") || sub(/^[^,]*,/, ""); split($0, fields, ","); print fields[at] }' "$plan"
-}
+field() { planned "$plan" "$1"; }
 photons=$(field photons) k=$(field k) samples=$(field samples) gathers=$(field gathers)
 more=(--light-samples "$(field light_samples)")
 caustics=$(field caustics)

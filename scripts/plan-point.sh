@@ -8,6 +8,7 @@ set -euo pipefail
 out=$1 room=$2 wanted=$3 runs=$4 reference=$5
 shift 5
 . "${0%/*}/room.sh"
+. "${0%/*}/plan-row.sh"
 mkdir -p "$(dirname "$out")"
 work=$(mktemp -d "$out.XXXXXX")
 trap 'rm -rf "$work"' EXIT
@@ -26,8 +27,7 @@ elif [ $code != 0 ]; then
     exit $code
 fi
 
-# The pipe is the first field. It is quoted where it holds a comma or a quote; quotes in it are doubled then.
-pipe=$(awk 'NR == 2' "$work/plan.csv" | sed -E 's/^"(([^"]|"")*)",.*/\1/; t quoted; s/,.*//; b; :quoted s/""/"/g')
+pipe=$(planned_pipe "$work/plan.csv")
 pipe=${pipe/--image plan.exr/--image "$work/run.exr"}
 TIMEFORMAT='%U %S'
 for seed in $(seq 1001 $((1000 + runs))); do
@@ -38,15 +38,7 @@ for seed in $(seq 1001 $((1000 + runs))); do
     rm -r "$work/streams"
 done > "$work/runs"
 
-# Numbers stand between two fields of words, so they are counted from behind the pipe.
 echo "$columns"
-planned=$(awk -v names="$promised" -F, '
-    NR == 1 { for (i = 2; i <= NF; i++) at[$i] = i - 1 }
-    NR == 2 {
-        sub(/^"([^"]|"")*",/, "") || sub(/^[^,]*,/, "")
-        n = split($0, fields, ","); m = split(names, name, ",")
-        for (i = 1; i <= m; i++) printf "%s%s", (i > 1 ? "," : ""), fields[at[name[i]]]
-    }' "$work/plan.csv")
-awk -v planned="$planned" -v wanted="${wanted%\%}" '
+awk -v planned="$(planned "$work/plan.csv" "$promised")" -v wanted="${wanted%\%}" '
     { square += $1; seconds += $2; if ($1 > worst) worst = $1; if ($1 <= wanted * wanted / 1e4) kept++ }
     END { printf "%s,%d,%d,%.4f,%.4f,%.2f,\n", planned, NR, kept, sqrt(square / NR), sqrt(worst), seconds / NR }' "$work/runs"

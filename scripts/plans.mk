@@ -10,6 +10,16 @@ plan-coverage: out/plans.csv ## How often pm-plan's promise is kept: eight rooms
 	@awk -F, -f scripts/plan-coverage.awk $<
 	@cmp -s $< scripts/plans.csv || echo 'The report shows other numbers: cp $< scripts/plans.csv'
 
+# Searches of which samples are measured have to be more than these, and few enough that the whole is measured soon.
+TRAFFIC_SIZE ?= 96x96
+TRAFFIC_RUNS ?= 10
+TRAFFIC_EFFORT := --pixels 144 --pilot-photons 20000
+export TRAFFIC_SIZE TRAFFIC_RUNS TRAFFIC_EFFORT
+
+plan-traffic: out/plan-traffic.csv ## How often bytes are what pm-plan --on-chip foretells: four rooms, two errors, two chips, ten seeds each (an hour)
+	@awk -F, -f scripts/plan-traffic.awk $<
+	@cmp -s $< scripts/plan-traffic.csv || echo 'Other numbers than those that are kept: cp $< scripts/plan-traffic.csv'
+
 # Ten times the effort of the finest plan and more, with k so small and photons so many that nothing is blurred.
 PLAN_REFERENCE := --samples 4096 --gathers 4 --light-samples 4 -n 4000000 -k 10 --caustics 2000000 --seed 7777
 plan_scene = $(or $(wildcard scenes/$1.obj),out/scenes/$1.obj)

@@ -69,7 +69,7 @@ rows_to_make = $(shell $(MAKE) -n --no-print-directory COUNTING=yes $(MAKEOVERRI
 counted = $(if $(COUNTING)$(only_told),,$(eval BEGUN += x))
 place = $(if $(filter-out 0,$(ROWS)), --place $(words $(BEGUN))/$(ROWS) --since $(SINCE))
 
-LONG := paper full-size frontier structures charts-cache accuracy need plan-coverage paper-exact
+LONG := paper full-size frontier structures charts-cache accuracy need plan-coverage plan-traffic paper-exact
 TAKES.paper := a quarter of an hour on two cores and 2 GB below out/
 TAKES.full-size := an hour with -j2 and 1 GB below out/
 TAKES.frontier := an hour with -j2 and 2 GB below out/
@@ -78,6 +78,7 @@ TAKES.charts-cache := 12 minutes with -j2 and half a GB below out/
 TAKES.accuracy := an hour
 TAKES.need := twenty minutes
 TAKES.plan-coverage := hours
+TAKES.plan-traffic := an hour
 TAKES.paper-exact := a working day
 
 # So do streams, which the programs see to.
