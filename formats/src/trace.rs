@@ -2,6 +2,7 @@
 
 mod access;
 mod archive;
+mod batch;
 mod bits;
 mod decode;
 mod encode;

@@ -55,6 +55,16 @@ pub trait TraceSink {
     }
     /// The search reads or writes memory.
     fn access(&mut self, access: Access);
+    /// The same, many times over.
+    fn accesses(&mut self, accesses: &[Access]) {
+        accesses.iter().for_each(|&access| self.access(access));
+    }
+    /// The search reads these records of a region, of `size` bytes each: an [`access`](TraceSink::access) each.
+    fn records(&mut self, region: u16, size: u32, records: &[u32]) {
+        for &record in records {
+            self.access(Access::read(region, u64::from(record) * u64::from(size), size));
+        }
+    }
     /// The search is over.
     fn search_end(&mut self) {}
 }

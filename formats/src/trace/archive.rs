@@ -139,10 +139,11 @@ fn begins(plane: &[u8], walks: &Walks) -> Option<Vec<(usize, u32)>> {
         let mut bits = BitReader::new(&plane[begin..]);
         let mut leaf = 0;
         for walk in 0..count {
-            super::heap_walk::decode::<false>(&mut bits, walks.nodes, |node| {
-                if walk == 0 && leaf == 0 && 2 * node >= walks.nodes {
+            super::heap_walk::decode(&mut bits, walks.nodes, &mut |visits| {
+                if walk == 0 && leaf == 0 {
+                    let mut nodes = visits.iter().map(|visit| visit + 1);
                     // In the order of leaves from left to right, whatever their depths.
-                    leaf = node << node.leading_zeros();
+                    leaf = nodes.find(|node| 2 * node >= walks.nodes).map_or(0, |node| node << node.leading_zeros());
                 }
             })?;
         }

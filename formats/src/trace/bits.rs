@@ -56,6 +56,42 @@ impl<'a> BitReader<'a> {
         Some(bit)
     }
 
+    /// The next bits, 57 or more of them; behind the end, zeros.
+    #[inline(always)]
+    pub(super) fn ahead(&self) -> u64 {
+        let behind = self.bytes.get(self.position >> 3..).unwrap_or_default();
+        let word = match behind.first_chunk() {
+            Some(&bytes) => u64::from_le_bytes(bytes),
+            None => Self::last(behind),
+        };
+        word >> (self.position & 7)
+    }
+
+    #[cold]
+    fn last(behind: &[u8]) -> u64 {
+        let mut bytes = [0; 8];
+        bytes[..behind.len()].copy_from_slice(behind);
+        u64::from_le_bytes(bytes)
+    }
+
+    /// Goes past so many bits, which may be more than there are.
+    #[inline(always)]
+    pub(super) const fn skip(&mut self, bits: u32) {
+        self.position += bits as usize;
+    }
+
+    /// The next bit; behind the end, 0.
+    pub(super) fn take(&mut self) -> u32 {
+        let bit = self.ahead() as u32 & 1;
+        self.skip(1);
+        bit
+    }
+
+    /// Whether no bit was taken that is not there.
+    pub(super) const fn is_within(&self) -> bool {
+        self.position <= 8 * self.bytes.len()
+    }
+
     pub(super) const fn align(&mut self) {
         self.position = self.position.next_multiple_of(8);
     }

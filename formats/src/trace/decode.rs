@@ -2,6 +2,7 @@
 
 use super::access::{Access, AccessKind, TraceSink};
 use super::archive;
+use super::batch::Batch;
 use super::bits::BitReader;
 use super::groups::nodes_of;
 use super::heap_walk;
@@ -13,7 +14,7 @@ use crate::region::{Coding, Region, check_regions};
 
 /// Replays the searches of a block; `None` if it does not hold what it says, or of regions that make no sense. What was
 /// replayed before the fault was found is then worthless.
-pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceSink) -> Option<Tally> {
+pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut dyn TraceSink) -> Option<Tally> {
     if block.section != Section::Records || check_regions(regions).is_err() {
         return None;
     }
@@ -24,6 +25,7 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
     let mut last_pixel = 0u32;
     let mut in_turns = InTurns::of(regions);
     sink.block(block.meta.batch, block.meta.warm_up);
+    let mut batch = Batch::new(sink);
     for _ in 0..block.meta.records {
         let before = planes;
         pixels.clear();
@@ -34,10 +36,10 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut impl TraceS
             last_pixel = u32::try_from(i64::from(last_pixel).checked_add(delta)?).ok()?;
             pixels.push(last_pixel);
         }
-        sink.search(&pixels);
+        batch.search(&pixels);
         in_turns.restart();
-        decode_accesses(&mut planes, regions, &mut in_turns, sink)?;
-        sink.search_end();
+        decode_accesses(&mut planes, regions, &mut in_turns, &mut batch)?;
+        batch.search_end();
 
         // The digest is that of the absolute pixels and of the search's own bytes: the same wherever it stands.
         scratch.clear();
@@ -64,7 +66,7 @@ fn decode_accesses(
     planes: &mut Planes<'_>,
     regions: &[Region],
     in_turns: &mut InTurns,
-    sink: &mut impl TraceSink,
+    batch: &mut Batch<'_>,
 ) -> Option<()> {
     let mut bits = BitReader::new(planes.walks);
     let mut last = 0i64;
@@ -77,14 +79,14 @@ fn decode_accesses(
             if head & 1 == 0 {
                 return None;
             }
-            decode_run(planes, region, sink)?;
+            decode_run(planes, region, batch)?;
             continue;
         }
         if head & 1 == 1 {
             match region.coding {
                 Coding::InTurns | Coding::Waiting => {
                     let count = take(&mut planes.heads)?;
-                    in_turns.decode(count, &mut planes.others, sink)?;
+                    in_turns.decode(count, &mut planes.others, batch)?;
                 }
                 Coding::LeavesApart { leaves } => {
                     decode_leaves_apart(
@@ -92,16 +94,15 @@ fn decode_accesses(
                         leaves,
                         number,
                         [size, regions.get(usize::from(number) + 1)?.record_size],
-                        sink,
+                        batch,
                     )?;
                 }
                 Coding::HeapWalk { nodes, reread } => {
-                    let read =
-                        |node: u32| sink.access(Access::read(number, u64::from(node - 1) * u64::from(size), size));
                     if reread {
-                        heap_walk::decode::<true>(&mut bits, nodes, read)?;
+                        let read = |node| Access::read(number, u64::from(node - 1) * u64::from(size), size);
+                        heap_walk::decode_rereading(&mut bits, nodes, |node| batch.access(read(node)))?;
                     } else {
-                        heap_walk::decode::<false>(&mut bits, nodes, read)?;
+                        heap_walk::decode(&mut bits, nodes, &mut |visits| batch.records(number, size, visits))?;
                     }
                 }
                 Coding::Records | Coding::Addresses => return None,
@@ -122,7 +123,7 @@ fn decode_accesses(
             if !region.holds(access.offset, access.len) {
                 return None;
             }
-            sink.access(access);
+            batch.access(access);
         }
     }
     bits.align();
@@ -136,17 +137,19 @@ fn decode_leaves_apart(
     leaves: u32,
     inner: u16,
     sizes: [u32; 2],
-    sink: &mut impl TraceSink,
+    batch: &mut Batch<'_>,
 ) -> Option<()> {
-    heap_walk::decode::<false>(bits, nodes_of(leaves), |node| {
-        let is_leaf = node >= leaves;
-        let (record, size) = if is_leaf { (node - leaves, sizes[1]) } else { (node - 1, sizes[0]) };
-        sink.access(Access::read(inner + u16::from(is_leaf), u64::from(record) * u64::from(size), size));
+    heap_walk::decode(bits, nodes_of(leaves), &mut |visits| {
+        for node in visits.iter().map(|visit| visit + 1) {
+            let is_leaf = node >= leaves;
+            let (record, size) = if is_leaf { (node - leaves, sizes[1]) } else { (node - 1, sizes[0]) };
+            batch.access(Access::read(inner + u16::from(is_leaf), u64::from(record) * u64::from(size), size));
+        }
     })
 }
 
 /// Accesses of one kind and length anywhere among all addresses.
-fn decode_run(planes: &mut Planes<'_>, region: &Region, sink: &mut impl TraceSink) -> Option<()> {
+fn decode_run(planes: &mut Planes<'_>, region: &Region, batch: &mut Batch<'_>) -> Option<()> {
     let count = usize::try_from(take(&mut planes.heads)?).ok()?;
     let kind = kind(take(&mut planes.heads)?)?;
     let len = u32::try_from(take(&mut planes.heads)?).ok()?;
@@ -157,7 +160,7 @@ fn decode_run(planes: &mut Planes<'_>, region: &Region, sink: &mut impl TraceSin
         if !region.holds(offset, len) {
             return None;
         }
-        sink.access(Access { kind, region: 0, len, offset });
+        batch.access(Access { kind, region: 0, len, offset });
     }
     Some(())
 }

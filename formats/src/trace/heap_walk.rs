@@ -65,16 +65,117 @@ fn encode_walk(visited: &[u32], nodes: u32, bits: &mut BitWriter) -> Option<usiz
     }
 }
 
-/// Calls `visit` with the number of each node of a walk; `None` if the bits end before the walk does.
+/// Tells `tell` the visits of a walk, in order and in pieces, as node numbers minus one; `None` if the bits end before the walk
+/// does.
 ///
-/// With `REREAD` it is called again for each inner node when all that is visited below it has been: the second touch of
-/// a search that looks at a node's own record last. That costs no bits.
-#[inline]
-pub(super) fn decode<const REREAD: bool>(
-    bits: &mut BitReader<'_>,
-    nodes: u32,
-    mut visit: impl FnMut(u32),
-) -> Option<()> {
+/// The loop is over the lowest three levels of the tree, which most visits are in: what a walk does there is arithmetic on six
+/// bits and no branch, the way back up from there is as long as there are zeros, and the way down again is bits side by side.
+pub(super) fn decode(bits: &mut BitReader<'_>, nodes: u32, tell: &mut dyn FnMut(&[u32])) -> Option<()> {
+    if nodes == 0 || nodes > MAX_NODES {
+        return None;
+    }
+    let mut visits = Visits { told: [0; Visits::ROOM], len: 0 };
+    // Second children, not yet decided upon, of the nodes above.
+    let mut others = [0u32; MAX_DEPTH];
+    let mut depth = 0;
+    let mut node = 1u32;
+    loop {
+        visits.make_room(tell);
+        // Down to the lowest three levels, by the first child of each node.
+        let mut ahead = bits.ahead();
+        let above = depth;
+        while node <= nodes / 8 {
+            visits.push(node);
+            let first = 2 * node + (ahead & 1) as u32;
+            ahead >>= 1;
+            others[depth % MAX_DEPTH] = first ^ 1;
+            depth += 1;
+            node = first;
+        }
+        bits.skip((depth - above) as u32);
+        match 4 * node + 3 <= nodes {
+            true => bits.skip(visits.push_lowest(node, bits.ahead() as u32)),
+            false => visits.push_below(node, nodes, bits),
+        }
+        // Back up, until a second child is visited too.
+        let undecided = bits.ahead().trailing_zeros() as usize;
+        if undecided >= depth {
+            bits.skip(depth as u32);
+            tell(&visits.told[..visits.len]);
+            return bits.is_within().then_some(());
+        }
+        bits.skip(undecided as u32 + 1);
+        depth -= undecided + 1;
+        node = others[depth % MAX_DEPTH];
+    }
+}
+
+/// Visits that are not yet told of.
+struct Visits {
+    told: [u32; Self::ROOM],
+    len: usize,
+}
+
+impl Visits {
+    const ROOM: usize = 1024;
+    /// The most that are added between two looks at how much room there is: a way down and three levels.
+    const STEP: usize = MAX_DEPTH + 8;
+
+    #[inline]
+    fn make_room(&mut self, tell: &mut dyn FnMut(&[u32])) {
+        if self.len > Self::ROOM - Self::STEP {
+            tell(&self.told[..self.len]);
+            self.len = 0;
+        }
+    }
+
+    #[inline]
+    fn push(&mut self, node: u32) {
+        self.told[self.len % Self::ROOM] = node - 1;
+        self.len += 1;
+    }
+
+    /// Adds the visits below and of a node that has four grandchildren and no more, and says how many bits they were. Visits
+    /// that are not made are written as well, where the next one goes.
+    #[inline]
+    fn push_lowest(&mut self, node: u32, ahead: u32) -> u32 {
+        let bit = |at: u32| ahead >> at & 1;
+        let both = bit(3);
+        let child = 2 * node + bit(0);
+        let mut write = |at: usize, node: u32| self.told[(self.len + at) % Self::ROOM] = node - 1;
+        write(0, node);
+        write(1, child);
+        write(2, 2 * child + bit(1));
+        write(3, 2 * child + (bit(1) ^ 1));
+        let of_first = 3 + bit(2) as usize;
+        let child = child ^ 1;
+        write(of_first, child);
+        write(of_first + 1, 2 * child + bit(4));
+        write(of_first + 2, 2 * child + (bit(4) ^ 1));
+        self.len += of_first + (both * (2 + bit(5))) as usize;
+        4 + 2 * both
+    }
+
+    /// The same of any node that has no further descendants.
+    fn push_below(&mut self, node: u32, nodes: u32, bits: &mut BitReader<'_>) {
+        self.push(node);
+        let left = 2 * node;
+        if left < nodes {
+            let first = left + bits.take();
+            self.push_below(first, nodes, bits);
+            if bits.take() == 1 {
+                self.push_below(first ^ 1, nodes, bits);
+            }
+        } else if left == nodes && bits.take() == 1 {
+            self.push_below(left, nodes, bits);
+        }
+    }
+}
+
+/// Calls `visit` with the number of each node of a walk, and again with that of each inner node when all that is visited below
+/// it has been: the second touch of a search that looks at a node's own record last. That costs no bits. `None` if the bits
+/// end before the walk does.
+pub(super) fn decode_rereading(bits: &mut BitReader<'_>, nodes: u32, mut visit: impl FnMut(u32)) -> Option<()> {
     // Nodes above, and their second children as long as these are not decided upon (else 0).
     let mut above = [(0u32, 0u32); MAX_DEPTH];
     let mut depth = 0;
@@ -93,37 +194,25 @@ pub(super) fn decode<const REREAD: bool>(
             continue;
         }
         if left == nodes {
-            let taken = bits.bit()? == 1;
-            if taken && REREAD {
+            if bits.bit()? == 1 {
                 above[depth] = (node, 0);
                 depth += 1;
-            }
-            if taken {
                 node = left;
                 continue;
             }
-            if REREAD {
-                visit(node);
-            }
+            visit(node);
         }
         loop {
             if depth == 0 {
                 return Some(());
             }
-            let (parent, other) = above[depth - 1];
-            if other != 0 && bits.bit()? == 1 {
-                if REREAD {
-                    above[depth - 1].1 = 0;
-                } else {
-                    depth -= 1;
-                }
-                node = other;
+            let (parent, other) = &mut above[depth - 1];
+            if *other != 0 && bits.bit()? == 1 {
+                node = std::mem::take(other);
                 break;
             }
             depth -= 1;
-            if REREAD {
-                visit(parent);
-            }
+            visit(*parent);
         }
     }
 }

@@ -5,7 +5,8 @@
 //! so costs nothing for the change itself, and each region has small differences of its own.
 
 use super::Waits;
-use super::access::{Access, TraceSink};
+use super::access::Access;
+use super::batch::Batch;
 use super::varint::{push, take_fast, unzigzag, zigzag};
 use crate::region::{Coding, Region};
 
@@ -68,25 +69,34 @@ impl InTurns {
     }
 
     /// Tells of `count` reads; `None` if they are not there or beyond their region.
-    #[inline]
-    pub(super) fn decode(&mut self, count: u64, bytes: &mut &[u8], sink: &mut impl TraceSink) -> Option<()> {
-        let of_rank = (1u64 << self.bits) - 1;
-        for _ in 0..count {
-            if self.waiting {
+    pub(super) fn decode(&mut self, count: u64, bytes: &mut &[u8], batch: &mut Batch<'_>) -> Option<()> {
+        if self.waiting {
+            for _ in 0..count {
                 let waits = Waits::of_code(take_fast(bytes)?, self.levels)?;
                 self.levels = self.levels.max(waits.level() + 1);
-                sink.waits(waits);
+                batch.waits(waits);
+                batch.access(self.take(bytes)?);
             }
-            let token = take_fast(bytes)?;
-            let region = self.regions.get_mut((token & of_rank) as usize)?;
-            // Beyond 2^63 it is negative, and that is beyond any region.
-            let record = region.last.wrapping_add(unzigzag(token >> self.bits));
-            if record as u64 >= region.records {
-                return None;
-            }
-            region.last = record;
-            sink.access(Access::read(region.number, record as u64 * u64::from(region.record_size), region.record_size));
+            return Some(());
+        }
+        for _ in 0..count {
+            batch.access(self.take(bytes)?);
         }
         Some(())
+    }
+
+    /// The next read.
+    #[inline(always)]
+    fn take(&mut self, bytes: &mut &[u8]) -> Option<Access> {
+        let token = take_fast(bytes)?;
+        let rank = token & ((1 << self.bits) - 1);
+        let region = self.regions.get_mut(rank as usize)?;
+        // Beyond 2^63 it is negative, and that is beyond any region.
+        let record = region.last.wrapping_add(unzigzag(token >> self.bits));
+        if record as u64 >= region.records {
+            return None;
+        }
+        region.last = record;
+        Some(Access::read(region.number, record as u64 * u64::from(region.record_size), region.record_size))
     }
 }

@@ -301,4 +301,17 @@ impl TraceSink for Simulation {
             self.waiting.push(&access);
         }
     }
+
+    fn accesses(&mut self, accesses: &[Access]) {
+        accesses.iter().for_each(|&access| self.access(access));
+    }
+
+    fn records(&mut self, region: u16, size: u32, mut records: &[u32]) {
+        while !records.is_empty() {
+            if self.waiting.is_full() {
+                self.flush();
+            }
+            records = &records[self.waiting.push_records(region, size, records)..];
+        }
+    }
 }

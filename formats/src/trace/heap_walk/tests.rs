@@ -26,12 +26,12 @@ fn walk(node: u32, nodes: u32, choices: &mut impl FnMut() -> bool, visited: &mut
 
 fn decoded(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
     let mut visited = vec![];
-    decode::<false>(&mut BitReader::new(bytes), nodes, |node| visited.push(node - 1)).map(|()| visited)
+    decode(&mut BitReader::new(bytes), nodes, &mut |visits| visited.extend_from_slice(visits)).map(|()| visited)
 }
 
 fn decoded_with_rereads(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
     let mut touched = vec![];
-    decode::<true>(&mut BitReader::new(bytes), nodes, |node| touched.push(node - 1)).map(|()| touched)
+    decode_rereading(&mut BitReader::new(bytes), nodes, |node| touched.push(node - 1)).map(|()| touched)
 }
 
 proptest! {

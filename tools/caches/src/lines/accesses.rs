@@ -54,6 +54,18 @@ impl AccessBuffer {
         true
     }
 
+    /// Adds as many of the reads of these records as there is room for, and says how many that is.
+    pub(crate) fn push_records(&mut self, region: u16, size: u32, records: &[u32]) -> usize {
+        let number = records.len().min(CHUNK - self.end);
+        let places = self.end..self.end + number;
+        for (offset, &record) in self.offsets[places.clone()].iter_mut().zip(records) {
+            *offset = u64::from(record) * u64::from(size);
+        }
+        self.shapes[places].fill(Shape::new(&Access::read(region, 0, size)));
+        self.end += number;
+        number
+    }
+
     /// Whether there is no room for another.
     pub(crate) fn is_full(&self) -> bool {
         self.end >= CHUNK
