@@ -12,6 +12,7 @@ mod tables;
 mod units;
 
 use super::bits::BitReader;
+use super::heap_walk;
 use crate::container::{compress_long, content_size, decompress};
 use crate::region::Region;
 use memory::{Coder, DECISION_CONTEXTS, Memory};
@@ -133,13 +134,13 @@ fn unpack_walks(packed: &[u8], walks: &Walks, order: Option<Vec<usize>>, plane: 
 /// Where the walks of each search begin in their plane, and the first leaf that each comes to; `None` if there is not just what
 /// they say.
 fn begins(plane: &[u8], walks: &Walks) -> Option<Vec<(usize, u32)>> {
-    let mut begin = 0;
+    let (mut begin, mut visits) = (0, heap_walk::Visits::new());
     let mut begins = Vec::with_capacity(walks.of_search.len());
     for &count in &walks.of_search {
         let mut bits = BitReader::new(&plane[begin..]);
         let mut leaf = 0;
         for walk in 0..count {
-            super::heap_walk::decode(&mut bits, walks.nodes, &mut |visits| {
+            heap_walk::decode(&mut bits, walks.nodes, &mut visits, &mut |visits| {
                 if walk == 0 && leaf == 0 {
                     let mut nodes = visits.iter().map(|visit| visit + 1);
                     // In the order of leaves from left to right, whatever their depths.

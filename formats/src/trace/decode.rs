@@ -5,7 +5,7 @@ use super::archive;
 use super::batch::Batch;
 use super::bits::BitReader;
 use super::groups::nodes_of;
-use super::heap_walk;
+use super::heap_walk::{self, Visits};
 use super::in_turns::InTurns;
 use super::varint::{take, unzigzag};
 use crate::container::{Block, Section};
@@ -26,6 +26,7 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut dyn TraceSi
     let mut in_turns = InTurns::of(regions);
     sink.block(block.meta.batch, block.meta.warm_up);
     let mut batch = Batch::new(sink);
+    let mut visits = Visits::new();
     for _ in 0..block.meta.records {
         let before = planes;
         pixels.clear();
@@ -38,7 +39,7 @@ pub fn decode_searches(block: &Block, regions: &[Region], sink: &mut dyn TraceSi
         }
         batch.search(&pixels);
         in_turns.restart();
-        decode_accesses(&mut planes, regions, &mut in_turns, &mut batch)?;
+        decode_accesses(&mut planes, regions, (&mut in_turns, &mut visits), &mut batch)?;
         batch.search_end();
 
         // The digest is that of the absolute pixels and of the search's own bytes: the same wherever it stands.
@@ -65,7 +66,7 @@ pub(super) fn payload_of(block: &Block, regions: &[Region]) -> Option<Vec<u8>> {
 fn decode_accesses(
     planes: &mut Planes<'_>,
     regions: &[Region],
-    in_turns: &mut InTurns,
+    (in_turns, visits): (&mut InTurns, &mut Visits),
     batch: &mut Batch<'_>,
 ) -> Option<()> {
     let mut bits = BitReader::new(planes.walks);
@@ -90,7 +91,7 @@ fn decode_accesses(
                 }
                 Coding::LeavesApart { leaves } => {
                     decode_leaves_apart(
-                        &mut bits,
+                        (&mut bits, visits),
                         leaves,
                         number,
                         [size, regions.get(usize::from(number) + 1)?.record_size],
@@ -102,7 +103,7 @@ fn decode_accesses(
                         let read = |node| Access::read(number, u64::from(node - 1) * u64::from(size), size);
                         heap_walk::decode_rereading(&mut bits, nodes, |node| batch.access(read(node)))?;
                     } else {
-                        heap_walk::decode(&mut bits, nodes, &mut |visits| batch.records(number, size, visits))?;
+                        heap_walk::decode(&mut bits, nodes, visits, &mut |visits| batch.records(number, size, visits))?;
                     }
                 }
                 Coding::Records | Coding::Addresses => return None,
@@ -133,13 +134,13 @@ fn decode_accesses(
 
 /// A walk of a tree whose inner nodes are the records of a region and whose leaves are those of the next.
 fn decode_leaves_apart(
-    bits: &mut BitReader<'_>,
+    (bits, visits): (&mut BitReader<'_>, &mut Visits),
     leaves: u32,
     inner: u16,
     sizes: [u32; 2],
     batch: &mut Batch<'_>,
 ) -> Option<()> {
-    heap_walk::decode(bits, nodes_of(leaves), &mut |visits| {
+    heap_walk::decode(bits, nodes_of(leaves), visits, &mut |visits| {
         for node in visits.iter().map(|visit| visit + 1) {
             let is_leaf = node >= leaves;
             let (record, size) = if is_leaf { (node - leaves, sizes[1]) } else { (node - 1, sizes[0]) };

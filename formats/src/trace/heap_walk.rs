@@ -70,11 +70,16 @@ fn encode_walk(visited: &[u32], nodes: u32, bits: &mut BitWriter) -> Option<usiz
 ///
 /// The loop is over the lowest three levels of the tree, which most visits are in: what a walk does there is arithmetic on six
 /// bits and no branch, the way back up from there is as long as there are zeros, and the way down again is bits side by side.
-pub(super) fn decode(bits: &mut BitReader<'_>, nodes: u32, tell: &mut dyn FnMut(&[u32])) -> Option<()> {
+pub(super) fn decode(
+    bits: &mut BitReader<'_>,
+    nodes: u32,
+    visits: &mut Visits,
+    tell: &mut dyn FnMut(&[u32]),
+) -> Option<()> {
     if nodes == 0 || nodes > MAX_NODES {
         return None;
     }
-    let mut visits = Visits { told: [0; Visits::ROOM], len: 0 };
+    visits.len = 0;
     // Second children, not yet decided upon, of the nodes above.
     let mut others = [0u32; MAX_DEPTH];
     let mut depth = 0;
@@ -110,13 +115,17 @@ pub(super) fn decode(bits: &mut BitReader<'_>, nodes: u32, tell: &mut dyn FnMut(
     }
 }
 
-/// Visits that are not yet told of.
-struct Visits {
-    told: [u32; Self::ROOM],
+/// Visits that are not yet told of: room for them, which serves one walk after the other.
+pub(super) struct Visits {
+    told: Box<[u32; Self::ROOM]>,
     len: usize,
 }
 
 impl Visits {
+    pub(super) fn new() -> Self {
+        Self { told: Box::new([0; Self::ROOM]), len: 0 }
+    }
+
     const ROOM: usize = 1024;
     /// The most that are added between two looks at how much room there is: a way down and three levels.
     const STEP: usize = MAX_DEPTH + 8;

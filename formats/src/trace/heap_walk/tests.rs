@@ -26,7 +26,8 @@ fn walk(node: u32, nodes: u32, choices: &mut impl FnMut() -> bool, visited: &mut
 
 fn decoded(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
     let mut visited = vec![];
-    decode(&mut BitReader::new(bytes), nodes, &mut |visits| visited.extend_from_slice(visits)).map(|()| visited)
+    decode(&mut BitReader::new(bytes), nodes, &mut Visits::new(), &mut |visits| visited.extend_from_slice(visits))
+        .map(|()| visited)
 }
 
 fn decoded_with_rereads(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
@@ -36,7 +37,7 @@ fn decoded_with_rereads(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
 
 proptest! {
     #[test]
-    fn any_walk_comes_back(nodes in 1u32..200, choices in prop::collection::vec(any::<bool>(), 0..512)) {
+    fn any_walk_comes_back(nodes in prop_oneof![1u32..200, 200u32..9000], choices in prop::collection::vec(any::<bool>(), 0..512)) {
         let mut choices = choices.into_iter().cycle();
         let (mut visited, mut touched) = (vec![], vec![]);
         walk(1, nodes, &mut || choices.next().unwrap_or(true), &mut visited, &mut touched);

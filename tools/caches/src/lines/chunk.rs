@@ -1,7 +1,7 @@
 //! The line accesses of a stretch of the trace: records are cut where lines end.
 
 use super::space::Numbering;
-use super::{Accesses, Attributes, LineSpace, Shape};
+use super::{Accesses, Attributes, CHUNK, LineSpace, Shape};
 
 /// Which records are already cut into line accesses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,6 +43,8 @@ pub struct LineChunk {
     /// region.
     attribute_mask: usize,
     len: usize,
+    /// First and last slot of each record, where all are found before any is taken.
+    ends: Vec<(u32, u32)>,
     accesses: u64,
     writes: bool,
     /// Where records count once, or somebody wants to know: number of the record of each line access, from 1 on over the
@@ -91,8 +93,8 @@ impl LineChunk {
                 self.attributes.push(shape.attributes());
                 self.attribute_mask = 0;
                 match (kept, accesses.lasts) {
-                    (false, None) => self.pack::<false, false, false>(space, accesses, shape),
-                    (true, None) => self.pack::<false, true, false>(space, accesses, shape),
+                    (false, None) => self.pack_alike::<false>(space, accesses, shape),
+                    (true, None) => self.pack_alike::<true>(space, accesses, shape),
                     (false, Some(_)) => self.pack::<false, false, true>(space, accesses, shape),
                     (true, Some(_)) => self.pack::<false, true, true>(space, accesses, shape),
                 }
@@ -163,6 +165,46 @@ impl LineChunk {
         }
         (self.len, self.accesses) = (len, records as u64 + extra);
         most <= 1
+    }
+
+    /// The line accesses of records that are all of this shape, repeats among them if they are `KEPT`; false if one spans more
+    /// than two lines. First all ends are found, side by side, then those are kept that count.
+    fn pack_alike<const KEPT: bool>(&mut self, space: &LineSpace, accesses: &Accesses, shape: Shape) -> bool {
+        let numbering = space.regions[shape.attributes().region()];
+        let records = accesses.offsets.len();
+        self.ends.resize(self.ends.len().max(records), (0, 0));
+        let ends = &mut self.ends[..records];
+        numbering.ends_of(space.shift, accesses.offsets, shape.len() & space.len_mask, ends);
+        let (mut spans, mut extra) = (0, 0_u32);
+        for &(first, last) in &*ends {
+            let more = last.wrapping_sub(first);
+            spans |= more;
+            extra = extra.wrapping_add(more);
+        }
+        if spans > 1 {
+            return false;
+        }
+        self.slots.resize(self.slots.len().max(2 * CHUNK), 0);
+        let (mut before, mut from) = (NO_SLOT, 0);
+        for ends in ends.chunks(CHUNK / 2) {
+            if self.slots.len() - from < CHUNK {
+                self.slots.resize(from + CHUNK, 0);
+            }
+            // What is written there is written where the next one goes, and the place is taken or not, as in `pack`. As many as
+            // that have room for sure, which spares a look for each.
+            let slots: &mut [u32; CHUNK] = (&mut self.slots[from..from + CHUNK]).try_into().expect("so many");
+            let mut len = 0;
+            for &(first, last) in ends {
+                slots[len % CHUNK] = first;
+                len += usize::from(KEPT || first != before);
+                slots[len % CHUNK] = last;
+                len += usize::from(last != first);
+                before = last;
+            }
+            from += len;
+        }
+        (self.len, self.accesses) = (from, records as u64 + u64::from(extra));
+        true
     }
 
     /// The line accesses of records of any length, until the chunk is full.

@@ -108,3 +108,31 @@ fn only_accesses_within_their_regions_are_let_through() {
     }
     assert!(!within(&[(1, 0, 0)]) && !within(&[(3, 0, 1)]) && within(&[]));
 }
+
+#[test]
+fn ends_found_many_at_a_time_are_those_found_one_by_one() {
+    let limit = u64::from(u32::MAX);
+    // Sizes on both sides of what 32 bits hold, bases within lines and at the end of all addresses.
+    for size in [1, 4096, limit - 130, limit - 127, limit, 1 << 40] {
+        for base in [0, 100, 4096, (1 << 60) + 77, u64::MAX - size] {
+            for line in [16, 128, 4096] {
+                let space = LineSpace::new(&[region(base, size)], line);
+                for len in [0, 1, 20, 300] {
+                    let most = size.saturating_sub(u64::from(len));
+                    let offsets: Vec<u64> = (0..9).map(|i| most / 8 * i).chain([most]).collect();
+                    let mut ends = vec![(0, 0); offsets.len()];
+                    space.regions[0].ends_of(space.shift, &offsets, len, &mut ends);
+                    for (&found, &offset) in ends.iter().zip(&offsets) {
+                        if offset + u64::from(len.max(1)) <= size {
+                            assert_eq!(
+                                found,
+                                space.regions[0].ends(space.shift, offset, len),
+                                "{base} {size} {line} {len}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

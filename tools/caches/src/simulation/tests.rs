@@ -5,7 +5,7 @@ use pm_formats::trace::{Access, AccessKind, Coding, Region, TraceSink, lay_out};
 use super::Simulation;
 use crate::plain_lru::oracle;
 use crate::trial::{Draw, Event, random_events, random_regions, simulate};
-use crate::{CacheConfig, Ways};
+use crate::{CacheConfig, Measures, Ways};
 
 fn random_configs(draw: &mut Draw) -> Vec<CacheConfig> {
     (0..draw.below(8) + 1)
@@ -184,4 +184,39 @@ fn an_access_outside_of_its_region_is_not_taken_for_another_line() {
     let mut simulation = Simulation::new(&regions, &["none".parse().unwrap()]).unwrap();
     simulation.access(Access::read(0, 90, 20));
     let _ = simulation.finish();
+}
+
+#[test]
+fn records_told_together_count_as_one_by_one() {
+    let mut draw = Draw::new(9);
+    for case in 0..300 {
+        // A region of more than 4 GiB as well, in front of or behind one of few records.
+        let sizes = draw.pick(&[[2_000, 5 << 30], [5 << 30, 2_000], [70_000, 2_000]]);
+        let size = draw.pick(&[1, 4, 20, 32, 100, 300]) as u32;
+        let regions = lay_out(sizes.map(|bytes| ("map".to_owned(), bytes, 1, Coding::Records)));
+        let configs: Vec<CacheConfig> =
+            ["1K,full,64,lru", "4K,4,128,fifo", "none"].iter().map(|text| text.parse().unwrap()).collect();
+        let chunk = draw.pick(&[1, 5, 60, 2048]) as usize;
+        let simulation = || Simulation::in_chunks(&regions, &configs, &Measures::default(), chunk).unwrap();
+        let (mut together, mut one_by_one) = (simulation(), simulation());
+        for _ in 0..draw.below(12) {
+            let region = draw.below(2);
+            let last = (regions[region as usize].size / u64::from(size)).min(1 << 32) - 1;
+            let near = draw.below(last + 1);
+            let record = |draw: &mut Draw| (near + draw.below(200)).min(last) as u32;
+            let records: Vec<u32> = (0..draw.below(3000)).map(|_| record(&mut draw)).collect();
+            let warm_up = draw.below(4) == 0;
+            for simulation in [&mut together, &mut one_by_one] {
+                simulation.block(0, warm_up);
+                simulation.search(&[0]);
+            }
+            together.records(region as u16, size, &records);
+            for &record in &records {
+                one_by_one.access(Access::read(region as u16, u64::from(record) * u64::from(size), size));
+            }
+            together.search_end();
+            one_by_one.search_end();
+        }
+        assert_eq!(together.finish(), one_by_one.finish(), "case {case}");
+    }
 }
