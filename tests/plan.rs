@@ -76,6 +76,18 @@ fn what_cannot_be_promised_is_refused() {
     // A budget that nothing meets, and what could be had for it.
     let tight = format!("pm-plan room.obj {view} --error 30% --seconds 0.001 -q --anyway {LITTLE}");
     refused(&tight, "--seconds 0.001: an error of 30% takes");
+    // What could be had is never better than what is refused.
+    for seconds in ["0.003", "0.01", "0.03"] {
+        let outcome = folder.run(&tight.replace("0.001", seconds));
+        let near = outcome
+            .stderr
+            .split("is an error of ")
+            .nth(1)
+            .map(|near| near.trim_start_matches("at most "))
+            .unwrap_or("");
+        let near = near.trim_start_matches("about ").split('%').next().and_then(|error| error.parse::<f64>().ok());
+        assert!(near.is_none_or(|error| error > 30.0), "{}", outcome.stderr);
+    }
 }
 
 /// Two rooms with a lamp in one of them, and a hole in the wall between them: quadrangles, one a line.

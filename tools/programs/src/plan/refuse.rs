@@ -104,8 +104,8 @@ pub(super) fn too_much(
 pub(super) fn too_slow(args: &Args, plan: &Plan, time: &Time, pixels: f64, caustics: u64) -> anyhow::Error {
     let upper = time.total.upper(args.confidence);
     let needed = format!("--seconds {}: an error of {} takes {upper:.1} s", args.seconds, percent(args.error));
-    // The model's seconds are those of its parts; the pilots say what they come to in pipes.
-    let budget = args.seconds * plan.choice.cost / time.total.value;
+    // The model's seconds are those of its parts; the pilots say what they come to in pipes, at most.
+    let budget = args.seconds * plan.choice.cost / upper;
     nearest(&needed, "in that time", plan, nearest_in(&plan.model, pixels, budget, caustics))
 }
 
