@@ -257,6 +257,8 @@ fn the_picture_is_the_same_to_the_last_bit() {
         "--map wide",
         "--map wide --carry -t 2",
         "--map wide --start-radius inf",
+        "--map wide --group 2",
+        "--map wide --group 32 --start-radius inf -t 2",
         "--map wide --start-radius 1e-5 --carry",
         "--map vvh",
         "--map kdb --fill 0.6",

@@ -18,6 +18,7 @@ mod files;
 mod foreign;
 mod furnace;
 mod fuzz;
+mod groups;
 mod guide;
 mod held;
 mod invariance;

@@ -2,7 +2,7 @@
 
 use crate::streams::{Photons, Queries};
 use kiddo::{Eytzinger, FlatVec, QueryScratch, SquaredEuclidean};
-use pm_maps::{AnyMap, Blind, BucketKdTree, Carry, Instructions, KdTree, Layout, Nearest, Search, WideTree};
+use pm_maps::{AnyMap, Blind, BucketKdTree, Carry, Groups, Instructions, KdTree, Layout, Nearest, Search, WideTree};
 use std::hint::black_box;
 use std::num::NonZero;
 
@@ -20,45 +20,67 @@ pub(crate) struct Ours<'a> {
     pub(crate) name: &'static str,
     map: &'a dyn AnyMap,
     search: Search,
-    carry: bool,
+    how: How,
 }
 
 impl Contestant for Ours<'_> {
     fn run(&mut self, queries: &Queries, k: usize, mut eyes: Eyes<'_>) {
         let mut found = Nearest::new(k, 0.0);
+        let mut show = |found: &Nearest| match &mut eyes {
+            Some(eyes) => eyes(&found.iter().collect::<Vec<_>>()),
+            None => _ = black_box(found.bound()),
+        };
         for window in &queries.points {
+            if let How::Grouped(most) = self.how {
+                let mut groups = Groups::default();
+                let mut rest = &window[..];
+                while !rest.is_empty() {
+                    let count = groups.begin((most, rest), &self.search, self.map, &mut found, None);
+                    for &point in rest.split_off(..count).expect("as many at most") {
+                        groups.next(point, &self.search, self.map, &mut found, None);
+                        show(&found);
+                    }
+                }
+                continue;
+            }
             let mut carry = Carry::default();
             for &point in window {
-                match self.carry {
+                match self.how == How::Carried {
                     true => carry.run(&self.search, self.map, point, &mut found, &mut Blind),
                     false => self.search.run(self.map, point, &mut found, &mut Blind),
                 };
-                match &mut eyes {
-                    Some(eyes) => eyes(&found.iter().collect::<Vec<_>>()),
-                    None => _ = black_box(found.bound()),
-                }
+                show(&found);
             }
         }
     }
+}
+
+/// How a map is searched.
+#[derive(Clone, Copy, PartialEq)]
+enum How {
+    Plain,
+    /// From what the search before knew.
+    Carried,
+    /// So many neighbours at most by one search.
+    Grouped(usize),
 }
 
 /// A map of ours, and how it is searched.
 pub(crate) struct Map {
     pub(crate) name: &'static str,
     pub(crate) map: Box<dyn AnyMap>,
-    /// Does a search start from what the one before it knew?
-    carry: bool,
+    how: How,
 }
 
 impl Map {
-    fn new(name: &'static str, map: impl AnyMap + 'static, carry: bool) -> Self {
-        Self { name, map: Box::new(map), carry }
+    fn new(name: &'static str, map: impl AnyMap + 'static, how: How) -> Self {
+        Self { name, map: Box::new(map), how }
     }
 
     /// Searched for the k nearest, from a radius fit for it.
     pub(crate) fn searched_for(&self, k: usize, photons: &Photons) -> Ours<'_> {
         let search = Search::new(k, f32::INFINITY).fit_start(&*self.map, &photons.records);
-        Ours { name: self.name, map: &*self.map, search, carry: self.carry }
+        Ours { name: self.name, map: &*self.map, search, how: self.how }
     }
 }
 
@@ -66,17 +88,19 @@ impl Map {
 pub(crate) fn ours(photons: &Photons) -> anyhow::Result<Vec<Map>> {
     let records = &photons.records[..];
     let mut maps = vec![
-        Map::new("kd", KdTree::build(records, Layout::Heap)?, false),
-        Map::new("bucket-kd, carried", BucketKdTree::build(records, Layout::Heap, 320)?, true),
-        Map::new("wide, uncarried", WideTree::build(records)?, false),
+        Map::new("kd", KdTree::build(records, Layout::Heap)?, How::Plain),
+        Map::new("bucket-kd, carried", BucketKdTree::build(records, Layout::Heap, 320)?, How::Carried),
+        Map::new("wide, uncarried", WideTree::build(records)?, How::Plain),
     ];
     let names = [
-        (Instructions::Plain, "wide, plain"),
-        (Instructions::Avx2, "wide, AVX2"),
-        (Instructions::Avx512, "wide, AVX-512"),
+        (Instructions::Plain, ["wide, plain", "grouped, plain"]),
+        (Instructions::Avx2, ["wide, AVX2", "grouped, AVX2"]),
+        (Instructions::Avx512, ["wide, AVX-512", "grouped, AVX-512"]),
     ];
-    for (instructions, name) in names.into_iter().filter(|(instructions, _)| instructions.are_there()) {
-        maps.push(Map::new(name, WideTree::build(records)?.with(instructions), true));
+    for (instructions, [carried, grouped]) in names.into_iter().filter(|(instructions, _)| instructions.are_there()) {
+        for (name, how) in [(carried, How::Carried), (grouped, How::Grouped(32))] {
+            maps.push(Map::new(name, WideTree::build(records)?.with(instructions), how));
+        }
     }
     Ok(maps)
 }

@@ -36,6 +36,7 @@ pub(crate) fn measure(
             let answerer = Answerer {
                 search,
                 carry: true,
+                group: 32,
                 describe: None,
                 map,
                 header,

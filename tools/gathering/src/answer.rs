@@ -5,7 +5,7 @@ use pm_film::film::{Film, Overflow};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::{Access, BlockEncoder, Coding, Region, Waits};
 use pm_formats::{Block, Header, Query, decode_checked};
-use pm_maps::{AccessObserver, AnyMap, Blind, Carry, Nearest, Search, SearchReads, WaitingReads, offset_of};
+use pm_maps::{AccessObserver, AnyMap, Blind, Carry, Groups, Nearest, Search, SearchReads, WaitingReads, offset_of};
 
 /// What it takes to answer queries; shared by all threads.
 pub struct Answerer<'a> {
@@ -13,6 +13,8 @@ pub struct Answerer<'a> {
     pub search: Search,
     /// Does a search start from what the one before in its block knows?
     pub carry: bool,
+    /// Neighbouring queries that share a search at most: 1 where each has its own. Such searches know what those before know.
+    pub group: usize,
     /// Bytes of the lines in which lookups are described, and the map's regions, if that is wanted.
     pub describe: Option<(u32, &'a [Region])>,
     /// Where.
@@ -42,6 +44,7 @@ impl Answerer<'_> {
         let mut work = Work::new(self, queries.len());
         match self.map.batch() {
             Some(batch) => queries.chunks(batch).try_for_each(|queries| work.answer_together(queries))?,
+            None if self.group > 1 => work.answer_in_groups(&queries)?,
             None => work.answer_one_by_one(&queries)?,
         }
         let Work { encoder, contributions, cached, counts, lookups, .. } = work;
@@ -121,7 +124,7 @@ impl<'a> Work<'a> {
     fn answer_one_by_one(&mut self, queries: &[Query]) -> Result<(), Fault> {
         let of = self.of;
         let mut found = Nearest::new(of.search.k, 0.0);
-        let watched = self.encoder.is_some() || self.lookups.is_some();
+        let watched = self.is_watched();
         // A chain ends with its block: the stream says where.
         let mut carry = Carry::default();
         for query in queries {
@@ -140,9 +143,7 @@ impl<'a> Work<'a> {
                     lookups.add(query, &found, &self.reads);
                 }
             }
-            let reads = std::mem::take(&mut self.reads);
-            self.log(&[query.pixel], &reads);
-            self.reads = reads;
+            self.log_own(&[query.pixel]);
             self.add(query, known, &found)?;
         }
         Ok(())
@@ -182,6 +183,79 @@ impl<'a> Work<'a> {
             self.add(query, None, found)?;
         }
         Ok(())
+    }
+
+    /// Neighbours by one search, unless something is held beforehand for one of them.
+    fn answer_in_groups(&mut self, queries: &[Query]) -> Result<(), Fault> {
+        // What is known of the query before ends with the block: the stream says where.
+        let (mut groups, mut found) = (Groups::default(), Nearest::new(self.of.search.k, 0.0));
+        let mut asking = Vec::with_capacity(queries.len());
+        for query in queries {
+            let known = self.known(query);
+            if known.is_none() && self.reads.is_empty() {
+                asking.push(query);
+                continue;
+            }
+            let reads = std::mem::take(&mut self.reads);
+            self.answer_groups_of(&asking, &mut groups, &mut found)?;
+            asking.clear();
+            self.reads = reads;
+            if known.is_some() {
+                self.log_own(&[query.pixel]);
+                self.add(query, known, &found)?;
+            } else {
+                self.answer_group(&[query], &mut groups, &mut found)?;
+            }
+        }
+        self.answer_groups_of(&asking, &mut groups, &mut found)
+    }
+
+    /// Queries of which nothing is held, in groups.
+    fn answer_groups_of(&mut self, queries: &[&Query], groups: &mut Groups, found: &mut Nearest) -> Result<(), Fault> {
+        let of = self.of;
+        let points: Vec<[f32; 3]> = queries.iter().map(|query| query.position).collect();
+        let mut at = 0;
+        while at < queries.len() {
+            self.reads.clear();
+            let reads = self.is_watched().then_some(&mut self.reads);
+            let count = groups.begin((of.group, &points[at..]), &of.search, of.map, found, reads);
+            self.answer_group(&queries[at..at + count], groups, found)?;
+            at += count;
+        }
+        Ok(())
+    }
+
+    /// The queries of a group, which has begun.
+    fn answer_group(&mut self, queries: &[&Query], groups: &mut Groups, found: &mut Nearest) -> Result<(), Fault> {
+        let of = self.of;
+        let pixels: Vec<u32> = queries.iter().map(|query| query.pixel).collect();
+        for (number, &query) in queries.iter().enumerate() {
+            let reads = self.is_watched().then_some(&mut self.reads);
+            self.counts.attempts += u64::from(groups.next(query.position, &of.search, of.map, found, reads));
+            self.counts.short += u64::from(!found.is_full());
+            if number == 0 {
+                self.log_own(&pixels);
+            }
+            if let Some(lookups) = &mut self.lookups {
+                // The reads are the first one's, as if it had asked alone and the others had listened.
+                lookups.add(query, found, &self.reads);
+                self.reads.clear();
+            }
+            self.add(query, None, found)?;
+        }
+        Ok(())
+    }
+
+    /// Does anybody ask for reads?
+    const fn is_watched(&self) -> bool {
+        self.encoder.is_some() || self.lookups.is_some()
+    }
+
+    /// Counts the reads of a search that serves these pixels by itself, and puts them into the trace.
+    fn log_own(&mut self, pixels: &[u32]) {
+        let reads = std::mem::take(&mut self.reads);
+        self.log(pixels, &reads);
+        self.reads = reads;
     }
 
     /// What is known of a query beforehand, of which the reads are remembered, and no others.

@@ -1,6 +1,6 @@
 //! Any photon map behind one face, for those who choose one when the program runs.
 
-use super::{AccessObserver, Nearest, PhotonMap, SearchReads};
+use super::{AccessObserver, Ball, Nearest, PhotonMap, SearchReads, Vicinity};
 use pm_formats::Number;
 use pm_formats::trace::Region;
 use std::sync::Arc;
@@ -33,6 +33,14 @@ pub trait AnyMap: Send + Sync {
     fn batch(&self) -> Option<usize>;
     /// [`PhotonMap::nearest_of_all`] with its reads remembered.
     fn nearest_of_all_read(&self, points: &[[f32; 3]], found: &mut [&mut Nearest], reads: &mut SearchReads);
+    /// See [`PhotonMap::group`].
+    fn group(&self) -> usize;
+    /// [`PhotonMap::surround`] seen by nobody.
+    fn surround_blind(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest) -> bool;
+    /// [`PhotonMap::surround`] with its reads remembered.
+    fn surround_read(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest, reads: &mut SearchReads) -> bool;
+    /// See [`PhotonMap::nearest_of_surrounding`].
+    fn nearest_of_surrounding(&self, vicinity: &Vicinity, point: [f32; 3], max_dist: f32, found: &mut Nearest);
     /// [`PhotonMap::nearest`] seen by nobody.
     fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest);
     /// [`PhotonMap::nearest`] with its reads remembered.
@@ -88,6 +96,22 @@ impl<M: PhotonMap> AnyMap for M {
 
     fn nearest_of_all_read(&self, points: &[[f32; 3]], found: &mut [&mut Nearest], reads: &mut SearchReads) {
         self.nearest_of_all(points, found, reads);
+    }
+
+    fn group(&self) -> usize {
+        PhotonMap::group(self)
+    }
+
+    fn surround_blind(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest) -> bool {
+        self.surround(ball, into, room, &mut super::Blind)
+    }
+
+    fn surround_read(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest, reads: &mut SearchReads) -> bool {
+        self.surround(ball, into, room, reads)
+    }
+
+    fn nearest_of_surrounding(&self, vicinity: &Vicinity, point: [f32; 3], max_dist: f32, found: &mut Nearest) {
+        PhotonMap::nearest_of_surrounding(self, vicinity, point, max_dist, found);
     }
 
     fn nearest_blind(&self, point: [f32; 3], found: &mut Nearest) {

@@ -10,6 +10,12 @@ pub(crate) const MOST_OPEN: usize = 112;
 /// Levels of the largest tree, leaves among them: 2^30 photons in leaves of 16, and 16 children a node.
 pub(crate) const MOST_LEVELS: usize = 9;
 
+/// Candidates for the nearest k that there is room for, before some of them have to go.
+#[inline(always)]
+pub(crate) fn most_candidates(k: usize) -> usize {
+    (4 * k).clamp(k + 1024, k + 8192)
+}
+
 /// Squared distances and places in the map, side by side, in bounded room.
 #[derive(Clone, Default)]
 pub(crate) struct Candidates {
@@ -109,7 +115,13 @@ impl Room {
     #[inline(always)]
     pub(crate) fn clear(&mut self, k: usize) {
         self.chosen.clear(k + WIDTH);
-        self.shell.clear((4 * k).clamp(k + 1024, k + 8192));
+        self.shell.clear(most_candidates(k));
+        self.open();
+    }
+
+    /// Room for nodes that are open.
+    #[inline(always)]
+    pub(crate) fn open(&mut self) {
         if self.open.is_empty() {
             self.open = vec![Open { numbers: [0; MOST_OPEN + WIDTH], len: 0, visited: 0 }; MOST_LEVELS];
         }

@@ -14,6 +14,15 @@ pub(super) struct Known {
 
 impl Known {
     pub(super) const NOTHING: Self = Self { inside: -1.0, enough: f32::INFINITY };
+
+    /// What a point whose k-th photon is at `radius` says of another, so far from it.
+    #[inline(always)]
+    pub(super) fn beside(between: f32, radius: f32) -> Self {
+        // Each of the numbers is rounded by parts of 2^-22 at most, or is so small that its square is not exact.
+        let enough = (between + radius) * 1.000_01 + 1e-18;
+        let inside = if radius > between { (radius - between) - (radius + between) * 1e-5 - 1e-18 } else { -1.0 };
+        Self { inside, enough }
+    }
 }
 
 /// What the search before says of the next: the photons found for one point lie about another as well.
@@ -28,14 +37,20 @@ pub struct Carry {
 }
 
 impl Carry {
+    /// Point and k-th distance of the search before, if it found k photons.
+    pub(super) const fn last(&self) -> Option<([f32; 3], f32)> {
+        self.last
+    }
+
+    /// These photons were found for this point, by whatever search.
+    pub(super) fn follow(&mut self, point: [f32; 3], found: &Nearest) {
+        self.last = found.is_full().then(|| (point, found.bound().sqrt()));
+    }
+
     /// What is known about `point`: fewer than k photons lie nearer than r - |q - q'|, and k within r + |q - q'|.
     fn known(&self, point: [f32; 3]) -> Known {
         let Some((last, radius)) = self.last else { return Known::NOTHING };
-        let between = distance_squared(last, point).sqrt();
-        // Each of the numbers is rounded by parts of 2^-22 at most, or is so small that its square is not exact.
-        let enough = (between + radius) * 1.000_01 + 1e-18;
-        let inside = if radius > between { (radius - between) - (radius + between) * 1e-5 - 1e-18 } else { -1.0 };
-        Known { inside, enough }
+        Known::beside(distance_squared(last, point).sqrt(), radius)
     }
 
     /// Finds the photons nearest to `point` as [`Search::run`] does, starting from what the search before knew.
@@ -49,7 +64,7 @@ impl Carry {
         eyes: &mut impl AccessObserver,
     ) -> u32 {
         let attempts = search.run_within(self.known(point), map, point, found, eyes);
-        self.last = found.is_full().then(|| (point, found.bound().sqrt()));
+        self.follow(point, found);
         attempts
     }
 }

@@ -1,6 +1,6 @@
 //! What a photon map is.
 
-use super::{AccessObserver, Nearest};
+use super::{AccessObserver, Ball, Nearest, Vicinity};
 use pm_formats::Number;
 use pm_formats::trace::Region;
 use std::sync::Arc;
@@ -70,6 +70,24 @@ pub trait PhotonMap: Send + Sync {
         for (&point, found) in points.iter().zip(found) {
             self.nearest(point, found, eyes);
         }
+    }
+
+    /// Queries of a group at most: neighbours that follow each other share a search, if it is more than 1. See [`Groups`](super::Groups).
+    fn group(&self) -> usize {
+        1
+    }
+
+    /// Collects the photons among which the nearest of all queries in a ball are. `false` if that cannot be done, or k photons
+    /// are not there: then the queries are to be answered one by one. `room` is emptied.
+    fn surround(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest, eyes: &mut impl AccessObserver) -> bool {
+        let _ = (ball, into, room, eyes);
+        false
+    }
+
+    /// Finds the photons nearest to `point`, at most so far, of a group about which photons were [collected](Self::surround).
+    fn nearest_of_surrounding(&self, vicinity: &Vicinity, point: [f32; 3], max_dist: f32, found: &mut Nearest) {
+        let _ = (vicinity, point, max_dist, found);
+        unreachable!("nothing was collected");
     }
 
     /// Finds the photons nearest to `point`, within the bound of `found`, which holds none before.

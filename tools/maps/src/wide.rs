@@ -7,6 +7,7 @@
 //! AVX2, plain loops) that find the same to the last bit.
 
 mod build;
+mod group;
 mod instructions;
 mod kernels;
 mod search;
@@ -16,6 +17,7 @@ pub use instructions::Instructions;
 
 use crate::candidates::WIDTH;
 use crate::error::check;
+use crate::vicinity::{Ball, Vicinity};
 use crate::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
@@ -60,6 +62,8 @@ pub struct WideTree {
     pub(crate) ids: Arc<[u32]>,
     pub(crate) photons: usize,
     instructions: Instructions,
+    /// Queries of a group at most.
+    group: usize,
 }
 
 impl WideTree {
@@ -70,6 +74,12 @@ impl WideTree {
     pub fn build(photons: &[Photon]) -> Result<Self, BuildError> {
         check(photons)?;
         Ok(build::build(photons, Instructions::best()))
+    }
+
+    /// The same tree, one search of which serves so many neighbouring queries at most: see [`Groups`](crate::Groups).
+    #[must_use]
+    pub fn in_groups_of(self, group: usize) -> Self {
+        Self { group, ..self }
     }
 
     /// The same tree, searched by other instructions; the answers are the same.
@@ -105,6 +115,18 @@ impl PhotonMap for WideTree {
 
     fn narrows(&self) -> bool {
         false
+    }
+
+    fn group(&self) -> usize {
+        self.group
+    }
+
+    fn surround(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest, eyes: &mut impl AccessObserver) -> bool {
+        self.photons >= ball.k && self.instructions.collect(self, ball, into, &mut room.room, eyes)
+    }
+
+    fn nearest_of_surrounding(&self, vicinity: &Vicinity, point: [f32; 3], max_dist: f32, found: &mut Nearest) {
+        self.instructions.nearest_of(self, vicinity, point, max_dist, found);
     }
 
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {

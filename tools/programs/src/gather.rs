@@ -68,6 +68,9 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
         let word = args.map.entry.word();
         return Err(usage(format!("--carry: `{word}` answers batches of queries, which carry nothing; leave it out")));
     }
+    if rest.carry && map.group() > 1 {
+        return Err(usage("--carry: groups carry what is known from one to the next by themselves; leave it out"));
+    }
     if rest.waits {
         check_waits(&args, map)?;
     }
@@ -113,6 +116,7 @@ fn gather(args: Args, typed: &Typed) -> anyhow::Result<()> {
     let answerer = Answerer {
         search,
         carry: args.carry(),
+        group: map.group(),
         describe: report.is_some().then(|| (args.line(), &header.regions[..])),
         map,
         header: &query_header,

@@ -30,7 +30,8 @@ pub(super) fn build(photons: &[Photon], instructions: Instructions) -> WideTree 
     }
     let nodes = vec![NO_BOXES; first as usize];
     let ids = Arc::default();
-    let mut tree = WideTree { levels, nodes, leaves: vec![EMPTY; leaves], ids, photons: photons.len(), instructions };
+    let mut tree =
+        WideTree { levels, nodes, leaves: vec![EMPTY; leaves], ids, photons: photons.len(), instructions, group: 1 };
     let mut points = Point::all(photons);
     if leaves > 0 {
         tree.divide(0, 0, &mut points);

@@ -5,9 +5,12 @@
 //! comparison, and packing the lanes of a mask. `cargo bench -p pm-programs --bench maps` compares the times.
 #![expect(unsafe_code, reason = "functions for instructions that not every machine has, called where they are there")]
 
+use super::group::{collect, nearest_of};
 use super::kernels::{Kernels, Plain};
 use super::search::search;
 use super::{WIDTH, WideTree};
+use crate::candidates::Room;
+use crate::vicinity::{Ball, Vicinity};
 use crate::{AccessObserver, Nearest};
 
 /// Kinds of instructions.
@@ -67,6 +70,54 @@ impl Instructions {
             _ => search::<Plain>(tree, point, found, eyes),
         }
     }
+
+    /// Collects what lies about a group by these instructions.
+    #[inline]
+    pub(super) fn collect(
+        self,
+        tree: &WideTree,
+        ball: &Ball,
+        into: &mut Vicinity,
+        room: &mut Room,
+        eyes: &mut impl AccessObserver,
+    ) -> bool {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
+            Self::Avx512 => unsafe { x86::avx512_collect(tree, ball, into, room, eyes) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            Self::Avx2 => unsafe { x86::avx2_collect(tree, ball, into, room, eyes) },
+            #[cfg(target_arch = "x86_64")]
+            Self::Plain => collect::<x86::Sse>(tree, ball, into, room, eyes),
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => collect::<Plain>(tree, ball, into, room, eyes),
+        }
+    }
+
+    /// Looks through what was collected by these instructions.
+    #[inline]
+    pub(super) fn nearest_of(
+        self,
+        tree: &WideTree,
+        vicinity: &Vicinity,
+        point: [f32; 3],
+        max_dist: f32,
+        found: &mut Nearest,
+    ) {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
+            Self::Avx512 => unsafe { x86::avx512_nearest_of(tree, vicinity, point, max_dist, found) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            Self::Avx2 => unsafe { x86::avx2_nearest_of(tree, vicinity, point, max_dist, found) },
+            #[cfg(target_arch = "x86_64")]
+            Self::Plain => nearest_of::<x86::Sse>(tree, vicinity, point, max_dist, found),
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => nearest_of::<Plain>(tree, vicinity, point, max_dist, found),
+        }
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -77,6 +128,50 @@ mod x86 {
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
     pub(super) fn avx512(tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         search::<Avx512>(tree, point, found, eyes);
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
+    pub(super) fn avx512_collect(
+        tree: &WideTree,
+        ball: &Ball,
+        into: &mut Vicinity,
+        room: &mut Room,
+        eyes: &mut impl AccessObserver,
+    ) -> bool {
+        collect::<Avx512>(tree, ball, into, room, eyes)
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
+    pub(super) fn avx512_nearest_of(
+        tree: &WideTree,
+        vicinity: &Vicinity,
+        point: [f32; 3],
+        max_dist: f32,
+        found: &mut Nearest,
+    ) {
+        nearest_of::<Avx512>(tree, vicinity, point, max_dist, found);
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub(super) fn avx2_collect(
+        tree: &WideTree,
+        ball: &Ball,
+        into: &mut Vicinity,
+        room: &mut Room,
+        eyes: &mut impl AccessObserver,
+    ) -> bool {
+        collect::<Avx2>(tree, ball, into, room, eyes)
+    }
+
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+    pub(super) fn avx2_nearest_of(
+        tree: &WideTree,
+        vicinity: &Vicinity,
+        point: [f32; 3],
+        max_dist: f32,
+        found: &mut Nearest,
+    ) {
+        nearest_of::<Avx2>(tree, vicinity, point, max_dist, found);
     }
 
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
@@ -116,6 +211,11 @@ mod x86 {
         #[inline(always)]
         fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32) {
             Plain::append_leaf(to, at, distances, first, mask);
+        }
+
+        #[inline(always)]
+        fn pack(to: &mut [f32], at: usize, lanes: &[f32; WIDTH], mask: u32) {
+            Plain::pack(to, at, lanes, mask);
         }
 
         #[inline(always)]
@@ -174,6 +274,16 @@ mod x86 {
                 let places = _mm512_add_epi32(lanes, _mm512_set1_epi32(first as i32));
                 let packed = _mm512_maskz_compress_epi32(mask as u16, places);
                 _mm512_storeu_si512(to_places.as_mut_ptr().cast(), packed);
+            }
+        }
+
+        #[inline(always)]
+        fn pack(to: &mut [f32], at: usize, lanes: &[f32; WIDTH], mask: u32) {
+            let to = &mut to[at..][..WIDTH];
+            // SAFETY: only `avx512` and its like search by these kernels; the slice has sixteen elements.
+            unsafe {
+                let packed = _mm512_maskz_compress_ps(mask as u16, _mm512_loadu_ps(lanes.as_ptr()));
+                _mm512_storeu_ps(to.as_mut_ptr(), packed);
             }
         }
 
@@ -258,6 +368,21 @@ mod x86 {
                     _mm256_storeu_ps(to_distances.as_mut_ptr(), _mm256_permutevar8x32_ps(half_of_them, order));
                     let places = _mm256_add_epi32(order, _mm256_set1_epi32((first + 8 * half) as i32));
                     _mm256_storeu_si256(to_places.as_mut_ptr().cast(), places);
+                }
+                at += mask.count_ones() as usize;
+            }
+        }
+
+        #[inline(always)]
+        fn pack(to: &mut [f32], mut at: usize, lanes: &[f32; WIDTH], mask: u32) {
+            for half in 0..2 {
+                let mask = (mask >> (8 * half) & 255) as usize;
+                let to = &mut to[at..][..8];
+                // SAFETY: only `avx2` and its like search by these kernels; the slice has eight elements, and so has the half.
+                unsafe {
+                    let order = _mm256_loadu_si256(PACK[mask].as_ptr().cast());
+                    let these = _mm256_loadu_ps(lanes.as_ptr().add(8 * half as usize));
+                    _mm256_storeu_ps(to.as_mut_ptr(), _mm256_permutevar8x32_ps(these, order));
                 }
                 at += mask.count_ones() as usize;
             }

@@ -19,6 +19,9 @@ pub(super) trait Kernels {
     /// The same where the places of the lanes are those from `first` on.
     fn append_leaf(to: (&mut [f32], &mut [u32]), at: usize, distances: &[f32; WIDTH], first: u32, mask: u32);
 
+    /// Puts the lanes of `mask` there, from `at` on, where there is room for sixteen.
+    fn pack(to: &mut [f32], at: usize, lanes: &[f32; WIDTH], mask: u32);
+
     /// Appends the lanes of `mask`, counted from `first` on. There is room for sixteen.
     fn append_numbers(to: &mut [u32], len: &mut usize, first: u32, mask: u32);
 
@@ -114,6 +117,19 @@ impl Kernels for Plain {
         for lane in 0..WIDTH {
             to_distances[number % WIDTH] = distances[lane];
             to_places[number % WIDTH] = first + lane as u32;
+            number += (mask >> lane & 1) as usize;
+        }
+    }
+
+    #[inline(always)]
+    fn pack(to: &mut [f32], at: usize, lanes: &[f32; WIDTH], mask: u32) {
+        if mask == 0 {
+            return;
+        }
+        let to = &mut to[at..][..WIDTH];
+        let mut number = 0;
+        for lane in 0..WIDTH {
+            to[number % WIDTH] = lanes[lane];
             number += (mask >> lane & 1) as usize;
         }
     }

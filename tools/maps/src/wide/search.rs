@@ -6,7 +6,7 @@
 use super::kernels::{Kernels, box_distances, leaf_distances};
 use super::select::select;
 use super::{LEAVES, NODES, WIDTH, WideTree};
-use crate::candidates::{MOST_OPEN, Room};
+use crate::candidates::{Candidates, MOST_OPEN, Open, Room};
 use crate::{AccessObserver, Nearest};
 
 /// Between which squared distances the k-th lies: all within `floor` are among the nearest, none beyond `bound` is.
@@ -31,25 +31,55 @@ pub(super) fn search<K: Kernels>(
     }
     let room = &mut found.room;
     room.clear(k.min(tree.photons));
+    let Room { chosen, shell, open } = room;
+    let mut nearest = Sorted { bounds, k, chosen, shell };
+    walk::<K>(tree, point, &mut nearest, open, eyes);
+    bounds = nearest.bounds;
+    select::<K>(found, bounds, &tree.ids);
+}
+
+/// What becomes of the leaves that are reached.
+pub(super) trait Leaves {
+    /// Squared distance within which boxes are opened.
+    fn bound(&self) -> f32;
+
+    /// Reads all leaves that are open; `false` ends the walk.
+    fn read<K: Kernels>(
+        &mut self,
+        tree: &WideTree,
+        point: [f32; 3],
+        open: &Open,
+        eyes: &mut impl AccessObserver,
+    ) -> bool;
+}
+
+/// Goes down to all leaves within a bound.
+#[inline(always)]
+pub(super) fn walk<K: Kernels>(
+    tree: &WideTree,
+    point: [f32; 3],
+    leaves: &mut impl Leaves,
+    open: &mut [Open],
+    eyes: &mut impl AccessObserver,
+) {
     let last = tree.levels.len() - 1;
     let mut depth = 0;
-    room.open[0].numbers[0] = 0;
-    (room.open[0].len, room.open[0].visited) = (1, 0);
+    open[0].numbers[0] = 0;
+    (open[0].len, open[0].visited) = (1, 0);
     loop {
-        open_children::<K>(tree, depth, point, bounds.bound, room, eyes);
+        open_children::<K>(tree, depth, point, leaves.bound(), open, eyes);
         if depth < last {
             depth += 1;
             // Below, if there is anything.
-            if room.open[depth].len > 0 {
+            if open[depth].len > 0 {
                 continue;
             }
-        } else {
-            read_leaves::<K>(tree, point, &mut bounds, k, room, eyes);
+        } else if !leaves.read::<K>(tree, point, &open[tree.levels.len()], eyes) {
+            return;
         }
         // The deepest level that has a node left.
-        while room.open[depth].visited == room.open[depth].len {
+        while open[depth].visited == open[depth].len {
             if depth == 0 {
-                select::<K>(found, bounds, &tree.ids);
                 return;
             }
             depth -= 1;
@@ -64,10 +94,10 @@ fn open_children<K: Kernels>(
     depth: usize,
     point: [f32; 3],
     bound: f32,
-    room: &mut Room,
+    open: &mut [Open],
     eyes: &mut impl AccessObserver,
 ) {
-    let [level, below, ..] = &mut room.open[depth..] else { return };
+    let [level, below, ..] = &mut open[depth..] else { return };
     (below.len, below.visited) = (0, 0);
     let first = tree.levels[depth].first;
     while level.visited < level.len && below.len <= MOST_OPEN {
@@ -80,38 +110,51 @@ fn open_children<K: Kernels>(
     }
 }
 
-/// Sorts out the photons of all leaves that are open.
-#[inline(always)]
-fn read_leaves<K: Kernels>(
-    tree: &WideTree,
-    point: [f32; 3],
-    bounds: &mut Bounds,
+/// Sorts out the photons: sure to be among the nearest, perhaps, or not.
+struct Sorted<'a> {
+    bounds: Bounds,
     k: usize,
-    room: &mut Room,
-    eyes: &mut impl AccessObserver,
-) {
-    let Room { chosen, shell, open } = room;
-    let open = &open[tree.levels.len()];
-    // In variables of their own, so that they need not be in memory at any moment.
-    let (mut chosen_len, mut shell_len, most) = (chosen.len, shell.len, shell.most());
-    for &number in &open.numbers[..open.len] {
-        eyes.read(LEAVES, number);
-        eyes.examined(WIDTH);
-        let distances = leaf_distances(&tree.leaves[number as usize], point);
-        let first = number * WIDTH as u32;
-        let near = K::within(&distances, bounds.bound);
-        let sure = near & K::within(&distances, bounds.floor);
-        K::append_leaf((&mut chosen.distances, &mut chosen.places), chosen_len, &distances, first, sure);
-        chosen_len += sure.count_ones() as usize;
-        K::append_leaf((&mut shell.distances, &mut shell.places), shell_len, &distances, first, near & !sure);
-        shell_len += (near & !sure).count_ones() as usize;
-        if shell_len > most {
-            shell.len = shell_len;
-            bounds.bound = bounds.bound.min(shell.shrink(k, &tree.ids));
-            shell_len = k;
-        }
+    chosen: &'a mut Candidates,
+    shell: &'a mut Candidates,
+}
+
+impl Leaves for Sorted<'_> {
+    #[inline(always)]
+    fn bound(&self) -> f32 {
+        self.bounds.bound
     }
-    (chosen.len, shell.len) = (chosen_len, shell_len);
+
+    #[inline(always)]
+    fn read<K: Kernels>(
+        &mut self,
+        tree: &WideTree,
+        point: [f32; 3],
+        open: &Open,
+        eyes: &mut impl AccessObserver,
+    ) -> bool {
+        let Self { bounds, k, chosen, shell } = self;
+        // In variables of their own, so that they need not be in memory at any moment.
+        let (mut chosen_len, mut shell_len, most) = (chosen.len, shell.len, shell.most());
+        for &number in &open.numbers[..open.len] {
+            eyes.read(LEAVES, number);
+            eyes.examined(WIDTH);
+            let distances = leaf_distances(&tree.leaves[number as usize], point);
+            let first = number * WIDTH as u32;
+            let near = K::within(&distances, bounds.bound);
+            let sure = near & K::within(&distances, bounds.floor);
+            K::append_leaf((&mut chosen.distances, &mut chosen.places), chosen_len, &distances, first, sure);
+            chosen_len += sure.count_ones() as usize;
+            K::append_leaf((&mut shell.distances, &mut shell.places), shell_len, &distances, first, near & !sure);
+            shell_len += (near & !sure).count_ones() as usize;
+            if shell_len > most {
+                shell.len = shell_len;
+                bounds.bound = bounds.bound.min(shell.shrink(*k, &tree.ids));
+                shell_len = *k;
+            }
+        }
+        (chosen.len, shell.len) = (chosen_len, shell_len);
+        true
+    }
 }
 
 /// A squared distance within which at least `k` photons lie: that to the far corner of a box that holds so many, on the way

@@ -76,6 +76,24 @@ fn split<K: Kernels>(candidates: &Candidates, k: usize, bounds: Bounds) -> (Coun
     (low, high)
 }
 
+/// Squared distances about the k-th of the candidates, which are padded: at most k are within the first, at least k within the second.
+#[inline(always)]
+pub(super) fn kth<K: Kernels>(candidates: &Candidates, k: usize, bounds: Bounds) -> [f32; 2] {
+    let (low, high) = split::<K>(candidates, k, bounds);
+    if high.1 - low.1 > WIDTH {
+        return [low.0, high.0];
+    }
+    let (mut rim, mut numbers, mut len) = ([f32::NAN; 2 * WIDTH], [0; 2 * WIDTH], 0);
+    for from in (0..candidates.len).step_by(WIDTH) {
+        let (distances, places) = candidates.lanes(from);
+        let about = K::within(&distances, high.0) & !K::within(&distances, low.0);
+        K::append_to((&mut rim, &mut numbers), len, &distances, &places, about);
+        len += about.count_ones() as usize;
+    }
+    rim[..len].sort_unstable_by(f32::total_cmp);
+    [rim[k - 1 - low.1]; 2]
+}
+
 /// Takes the candidates within `bound`.
 #[inline(always)]
 fn take<K: Kernels>(candidates: &Candidates, bound: f32, chosen: &mut Candidates) {
