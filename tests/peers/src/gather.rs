@@ -36,7 +36,7 @@ pub(crate) fn measure(
             let answerer = Answerer {
                 search,
                 carry: true,
-                group: 32,
+                group: 1,
                 describe: None,
                 map,
                 header,
