@@ -165,11 +165,16 @@ fn traffic_is_what_the_whole_picture_fetches() {
     let (found, _, _, pipe, photons) = planned("--on-chip 4M");
     let all = whole(&pipe, photons);
     assert!(found <= 40.0 * photons as f64 && found >= all, "{found} for {photons} photons, {all} by {pipe}");
-    let (found, low, high, pipe, photons) = planned("--on-chip 16K");
-    let all = whole(&pipe, photons);
-    assert!(all > 40.0 * photons as f64, "{all}");
-    assert!((low..=high).contains(&all), "{all} is not in {low} to {high}, by {pipe}");
-    assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
+    // Two of three: one of many may be outside, as it says (make plan-traffic counts more of them).
+    let within = (1..=3).filter(|seed| {
+        let (found, low, high, pipe, photons) = planned(&format!("--on-chip 16K --seed {seed}"));
+        let all = whole(&pipe, photons);
+        assert!(all > 40.0 * photons as f64, "{all}");
+        assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
+        println!("{all} of {low} to {high}, by {pipe}");
+        (low..=high).contains(&all)
+    });
+    assert!(within.count() >= 2);
 
     let refused =
         folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --on-chip 16K --bandwidth 1MB/s --fps 100"));
