@@ -171,7 +171,6 @@ fn traffic_is_what_the_whole_picture_fetches() {
         let all = whole(&pipe, photons);
         assert!(all > 40.0 * photons as f64, "{all}");
         assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
-        println!("{all} of {low} to {high}, by {pipe}");
         (low..=high).contains(&all)
     });
     assert!(within.count() >= 2);

@@ -211,7 +211,7 @@ impl Report<'_> {
         match &self.plan.rival {
             Some(Rival::Dearer(other)) if by(other) < 1.0 => {
                 format!(
-                    "{}: {:.2} times the cost, by the model: too little is saved to try it",
+                    "{}: {:.2} times the cost, by the model: to try it would take more than it is likely to save",
                     recipe(&other.recipe),
                     by(other)
                 )

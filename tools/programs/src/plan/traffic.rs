@@ -9,7 +9,7 @@ use pm_report::sheet::{Sheet, number};
 use pm_sampling::{CONFIDENCE, Spread, student_quantile};
 use pm_size::Bytes;
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A picture whose searches fetch from memory through what is on the chip.
@@ -20,8 +20,8 @@ pub(super) struct Chip<'a> {
     seed: u64,
     on_chip: u64,
     folder: tempfile::TempDir,
-    /// Which maps there are in the folder.
-    maps: RefCell<BTreeSet<String>>,
+    /// Which maps there are in the folder, and how many bytes of each are read, where that is known.
+    maps: RefCell<BTreeMap<String, Option<u64>>>,
 }
 
 /// In which order searches come.
@@ -89,8 +89,6 @@ pub(super) struct Fetched {
     pub(super) order: Order,
     /// Bytes of the map for the whole picture.
     pub(super) bytes: Estimate,
-    /// Bytes of the largest map.
-    maps: u64,
     /// Bytes of the cache.
     pub(super) cache: u64,
     /// How it is measured in full, for each map.
@@ -99,7 +97,7 @@ pub(super) struct Fetched {
 
 /// Searches of a sample, about.
 const SAMPLE: u64 = 60_000;
-/// Searches of a window where they come as they are cast, and of those before it that fill the cache.
+/// Searches of a window in scanline order, and of those before it that fill the cache.
 const WINDOW: [u64; 2] = [400, 1600];
 /// Of a large picture: the rays of a row are cast from its beginning, and its rows are long.
 const LONG_WINDOW: [u64; 2] = [2400, 1600];
@@ -132,17 +130,13 @@ impl<'a> Chip<'a> {
 
     /// All orders that the chip has room for, those that fetch least first.
     pub(super) fn measure(&self, recipe: &Recipe) -> anyhow::Result<Vec<Fetched>> {
-        let mut found: Vec<Fetched> = vec![];
-        for order in self.orders(recipe) {
-            // Beside a large picture nothing is measured that is known: of a map that fits all orders fetch the same.
-            let known = found.iter().find(|other| self.is_large() && other.maps <= self.cache(recipe, order));
-            let bytes = known.filter(|known| known.maps <= known.cache).map(|known| (known.bytes, known.maps));
-            found.push(self.fetched(recipe, order, self.few(), bytes)?);
-        }
+        let orders = self.orders(recipe).into_iter();
+        let mut found: Vec<Fetched> =
+            orders.map(|order| self.fetched(recipe, order, self.few())).collect::<anyhow::Result<_>>()?;
         found.sort_by(|a, b| a.bytes.value.total_cmp(&b.bytes.value));
-        if let Some(least) = found.first_mut().filter(|least| self.few() != SAMPLE && least.maps > least.cache) {
+        if let (Some(least), true) = (found.first_mut(), self.is_large()) {
             // By another sample: that of what is the least of several is too good to be true.
-            *least = self.fetched(recipe, least.order, SAMPLE, None)?;
+            *least = self.fetched(recipe, least.order, SAMPLE)?;
         }
         Ok(found)
     }
@@ -151,7 +145,7 @@ impl<'a> Chip<'a> {
     pub(super) fn search_bytes(&self, k: u32, photons: u64) -> Result<f64, Trouble> {
         let recipe = Recipe { samples: 4, gathers: 4, light_samples: 1, photons, k, caustics: 0 };
         let order = self.orders(&recipe).into_iter().find(|order| matches!(order, Order::Hilbert(_)));
-        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.few(), None)?;
+        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.few())?;
         let [width, height] = self.size;
         let searches = f64::from(width) * f64::from(height) * f64::from(recipe.samples * recipe.gathers);
         Ok(found.bytes.value / searches)
@@ -192,29 +186,28 @@ impl<'a> Chip<'a> {
         ((self.on_chip - self.store(recipe, order)) / CACHE_STEP).max(1) * CACHE_STEP
     }
 
-    /// What an order fetches, and bytes of the largest map: by so many searches, about, unless it is known.
-    fn fetched(
-        &self,
-        recipe: &Recipe,
-        order: Order,
-        wanted: u64,
-        known: Option<(Estimate, u64)>,
-    ) -> anyhow::Result<Fetched> {
+    /// What an order fetches, by so many searches, about.
+    fn fetched(&self, recipe: &Recipe, order: Order, wanted: u64) -> anyhow::Result<Fetched> {
         let cache = self.cache(recipe, order);
-        let (mut bytes, mut maps) = known.unwrap_or_default();
+        let mut bytes = Estimate::default();
         let mut pipes = vec![];
         for &searches in Searches::of(recipe) {
-            if known.is_none() {
-                let map = self.map(searches, searches.map(recipe).0)?;
-                let sample = self.sample(recipe, searches, order, wanted);
-                let printed = self.pipe(recipe, searches, order, cache, &map, &sample).with(quiet_csv()).run()?;
-                let (found, map) = read(&printed, cache)?;
-                bytes = bytes.plus(found);
-                maps = maps.max(map);
-            }
+            let map = self.map(searches, searches.map(recipe).0)?;
+            // Beside a large picture nothing is measured that is known.
+            let known = self.maps.borrow()[&map].filter(|&size| self.is_large() && size <= cache);
+            bytes = bytes.plus(match known {
+                Some(size) => once(size),
+                None => {
+                    let sample = self.sample(recipe, searches, order, wanted);
+                    let printed = self.pipe(recipe, searches, order, cache, &map, &sample).with(quiet_csv()).run()?;
+                    let (found, size) = read(&printed, cache)?;
+                    self.maps.borrow_mut().insert(map, Some(size));
+                    found
+                }
+            });
             pipes.push(self.pipe(recipe, searches, order, cache, searches.file(), &[]));
         }
-        Ok(Fetched { order, bytes, maps, cache, pipes })
+        Ok(Fetched { order, bytes, cache, pipes })
     }
 
     /// Which rays are cast: options of `pm-queries`; none where all are.
@@ -225,17 +218,18 @@ impl<'a> Chip<'a> {
         }
         let seed = ["--sample-seed".to_owned(), self.seed.wrapping_add(u64::from(wanted != SAMPLE)).to_string()];
         let side = match order {
-            // Searches without an order of their own are a window anywhere, and those before it fill the cache.
-            Order::Scanline | Order::Tiled => {
-                let [window, warm_up] = if self.is_large() { LONG_WINDOW } else { WINDOW };
-                let pixels = if order == Order::Scanline { width } else { width * height };
-                let of_row = pixels * searches.of_pixel(recipe);
+            Order::Scanline => {
+                let long = self.is_large() && searches == Searches::Gather;
+                let [window, warm_up] = if long { LONG_WINDOW } else { WINDOW };
+                let of_row = width * searches.of_pixel(recipe);
                 let warm_up = warm_up.min(of_row.saturating_sub(window));
                 let windows = (wanted / (window + warm_up)).max(8).min(height);
                 let numbers = [("--only-tiles", windows), ("--window", window.min(of_row)), ("--warm-up", warm_up)];
                 let words = numbers.into_iter().flat_map(|(name, number)| [name.to_owned(), number.to_string()]);
                 return words.chain(seed).collect();
             }
+            // Windows would do as well, with a warm-up, but all rays before them are cast: tiles begin with an empty cache.
+            Order::Tiled => u64::from(TILE),
             Order::Hilbert(side) => u64::from(side),
         };
         let all = width.div_ceil(side) * height.div_ceil(side);
@@ -276,11 +270,12 @@ impl<'a> Chip<'a> {
     /// A map of so many photons, as the picture's will be.
     fn map(&self, searches: Searches, photons: u64) -> anyhow::Result<String> {
         let path = self.folder.path().join(format!("{photons}.{}", searches.file())).display().to_string();
-        if self.maps.borrow_mut().insert(path.clone()) {
+        if !self.maps.borrow().contains_key(&path) {
             let which = if searches == Searches::Caustics { "--caustics " } else { "" };
             let options = words(&format!("{which}-q -n {photons} --seed {}", self.seed));
             let output = ["-o".to_owned(), path.clone()];
             Pipe::new("pm-photons", options.into_iter().chain(output).chain(self.scene.iter().cloned())).run()?;
+            self.maps.borrow_mut().insert(path.clone(), None);
         }
         Ok(path)
     }
@@ -294,6 +289,11 @@ fn quiet_csv() -> Vec<String> {
     words("-q --format csv")
 }
 
+/// A map that fits is fetched once.
+fn once(bytes_of_map: u64) -> Estimate {
+    Estimate { value: bytes_of_map as f64, spread: Spread::default() }
+}
+
 /// What `pm-cachesim` found, and the bytes of the map: its interval is of 95 %, by Student's t. Of a map that fits, each line is fetched
 /// once, whatever a sample says that begins with an empty cache, or sees some of the lines.
 fn read(printed: &[u8], cache: u64) -> anyhow::Result<(Estimate, u64)> {
@@ -305,7 +305,7 @@ fn read(printed: &[u8], cache: u64) -> anyhow::Result<(Estimate, u64)> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of lines")]
     let bytes_of_map = map as u64;
     if bytes_of_map <= cache {
-        return Ok((Estimate { value: map, spread: Spread::default() }, bytes_of_map));
+        return Ok((once(bytes_of_map), bytes_of_map));
     }
     let freedom = field("degrees_of_freedom")?.max(1.0);
     let variance = (half_width / student_quantile(CONFIDENCE, freedom)).powi(2);
