@@ -14,6 +14,7 @@ LATER += held-orders
 LATER += photon-radii
 LATER += reverse
 LATER += treelets
+LATER += groups
 LATER += prefetch
 LATER += radius
 LATER += spills
@@ -27,7 +28,7 @@ LATER += cells
 # What the photon map looks like: seen directly, of more and more photons, and by final gathering.
 LATER_PICTURES := $(patsubst %,out/later/%.png,direct-10000 direct-100000 direct-1000000 gathered-100000)
 
-later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, latency, private caches, mirrors, order in software, irradiance held beforehand, radii of photons, reverse photon mapping, queues at treelets, treelets prefetched, parts by radius, direct visualisation (-j1: some minutes)
+later: out/later/report.html ## What came after the paper: hints of a few bits, Morton against Hilbert, latency, private caches, mirrors, order in software, irradiance held beforehand, radii of photons, reverse photon mapping, queues at treelets, searches that several queries share, treelets prefetched, parts by radius, direct visualisation (-j1: some minutes)
 
 out/later/report.html: scripts/later.toml $(LATER:%=out/%.csv) out/later/claims.csv $(LATER_PICTURES) $(call made_with,REPORTING)
 	@mkdir -p $(@D)
