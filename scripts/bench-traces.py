@@ -5,7 +5,8 @@
     make bench-traces LIBCACHESIM=python3
 
 Each of the two orders of a stream is written as .pmt, raw64 and oracleGeneral. Seconds are of the processor, of whole processes, medians of
-interleaved rounds; the peer's own start, of Python and its library with an empty trace, is taken off.
+interleaved rounds; the peer's own start, of Python and its library with an empty trace, is taken off. What is timed is the table, which tells
+what the peer tells; the counts come from CSV, for which working sets, pages and twins are measured as well.
 """
 import argparse
 import csv
@@ -45,10 +46,13 @@ def timed(command):
 
 
 def ours(trace, cache, policy, form):
-    command = ["pm-cachesim", "-q", trace, "--cache", f"{cache},full,128,{policy}", "--format", "csv"]
-    text, seconds = timed(command if form == "pmt" else [*command, "--input", form])
-    row = next(csv.DictReader(io.StringIO(text)))
-    return int(row["accesses"]), int(row["fetches"]), seconds
+    command = ["pm-cachesim", "-q", trace, "--cache", f"{cache},full,128,{policy}"]
+    return command if form == "pmt" else [*command, "--input", form]
+
+
+def counts(command):
+    row = next(csv.DictReader(io.StringIO(timed([*command, "--format", "csv"])[0])))
+    return int(row["accesses"]), int(row["fetches"])
 
 
 def peer(python, trace, cache, policy, accesses):
@@ -73,17 +77,19 @@ def main():
                 subprocess.run(["pm-view", "-q", trace, "--export", form, "--line", "128", "-o", files[form]], check=True)
             for policy in POLICIES:
                 rounds = asked.rounds if policy == "lru" else 1
+                commands = {form: ours(file, asked.cache, policy, form) for form, file in files.items()}
+                counted = {form: counts(command) for form, command in commands.items()}
+                accesses = counted["oracleGeneral"][0]
                 found = {form: [] for form in files}
                 theirs = []
                 for _ in range(rounds):
-                    for form, file in files.items():
-                        found[form].append(ours(file, asked.cache, policy, form))
-                    accesses = found["oracleGeneral"][0][0]
+                    for form, command in commands.items():
+                        found[form].append(timed(command)[1])
                     theirs.append(peer(asked.python, files["oracleGeneral"], asked.cache, policy, accesses))
                 misses, peer_seconds = theirs[0][0], max(statistics.median(each[1] for each in theirs) - start, 1e-9)
                 for form, results in found.items():
-                    seconds = statistics.median(each[2] for each in results)
-                    accesses, own, _ = results[0]
+                    seconds = statistics.median(results)
+                    accesses, own = counted[form]
                     verdict = "" if own == misses else f"  but {misses} there"
                     unequal += own != misses
                     print(f"{name:<16}{policy:<8}{form:<16}{accesses:>12}{own:>12}{seconds:>9.2f}{peer_seconds:>9.2f}"
