@@ -302,6 +302,7 @@ impl TraceSink for Simulation {
         }
     }
 
+    // Said here so that it is compiled with the caches, as fast as they are, and not with whoever replays.
     fn accesses(&mut self, accesses: &[Access]) {
         accesses.iter().for_each(|&access| self.access(access));
     }

@@ -19,8 +19,10 @@ use crate::candidates::WIDTH;
 use crate::error::check;
 use crate::vicinity::{Ball, Vicinity};
 use crate::{AccessObserver, BuildError, Nearest, PhotonMap};
+use group::{Collect, LookThrough};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
+use search::Find;
 use std::sync::Arc;
 
 /// Number of the region that holds the nodes.
@@ -122,16 +124,16 @@ impl PhotonMap for WideTree {
     }
 
     fn surround(&self, ball: &Ball, into: &mut Vicinity, room: &mut Nearest, eyes: &mut impl AccessObserver) -> bool {
-        self.photons >= ball.k && self.instructions.collect(self, ball, into, &mut room.room, eyes)
+        self.photons >= ball.k && self.instructions.run(Collect { tree: self, ball, into, room: &mut room.room, eyes })
     }
 
     fn nearest_of_surrounding(&self, vicinity: &Vicinity, point: [f32; 3], max_dist: f32, found: &mut Nearest) {
-        self.instructions.nearest_of(self, vicinity, point, max_dist, found);
+        self.instructions.run(LookThrough { tree: self, vicinity, point, max_dist, found });
     }
 
     fn nearest(&self, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
         if self.photons > 0 {
-            self.instructions.search(self, point, found, eyes);
+            self.instructions.run(Find { tree: self, point, found, eyes });
         }
     }
 }

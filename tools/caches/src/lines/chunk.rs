@@ -1,6 +1,5 @@
 //! The line accesses of a stretch of the trace: records are cut where lines end.
 
-use super::space::Numbering;
 use super::{Accesses, Attributes, CHUNK, LineSpace, Shape};
 
 /// Which records are already cut into line accesses.
@@ -133,7 +132,6 @@ impl LineChunk {
         self.slots.resize(self.slots.len().max(2 * records), 0);
         let slots = &mut self.slots[..2 * records];
         let of_slots = &mut self.attributes[..];
-        let numbering = if MIXED { Numbering::default() } else { space.regions[common.attributes().region()] };
         let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.attributes()), 0, 0);
         let lasts = accesses.lasts.unwrap_or(accesses.offsets);
         for ((&offset, &last), &shape) in accesses.offsets.iter().zip(lasts).zip(accesses.shapes) {
@@ -143,8 +141,8 @@ impl LineChunk {
                 let (first, last) = ((offset >> space.shift) as u32, (last >> space.shift) as u32);
                 (first, last, space.more_lines(offset, shape.len()))
             } else {
-                let numbering = if MIXED { space.regions[attributes.region()] } else { numbering };
-                let (first, last) = numbering.ends(space.shift, offset, shape.len() & space.len_mask);
+                let (first, last) =
+                    space.regions[attributes.region()].ends(space.shift, offset, shape.len() & space.len_mask);
                 (first, last, last - first)
             };
             // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
@@ -184,7 +182,6 @@ impl LineChunk {
         if spans > 1 {
             return false;
         }
-        self.slots.resize(self.slots.len().max(2 * CHUNK), 0);
         let (mut before, mut from) = (NO_SLOT, 0);
         for ends in ends.chunks(CHUNK / 2) {
             if self.slots.len() - from < CHUNK {

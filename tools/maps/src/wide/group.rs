@@ -2,7 +2,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes, which compilers turn into vector code")]
 
-use super::kernels::{Kernels, leaf_distances};
+use super::kernels::{Kernels, Work, leaf_distances};
 use super::search::{Bounds, Leaves, walk};
 use super::select::{kth, select};
 use super::{LEAVES, WIDTH, WideTree};
@@ -13,31 +13,38 @@ use crate::vicinity::{Ball, Vicinity};
 use crate::{AccessObserver, Nearest};
 
 /// Collects the photons among which the k nearest of every query in the ball are; `false` if they are too many, or k are not there.
-#[inline(always)]
-pub(super) fn collect<K: Kernels>(
-    tree: &WideTree,
-    ball: &Ball,
-    into: &mut Vicinity,
-    room: &mut Room,
-    eyes: &mut impl AccessObserver,
-) -> bool {
-    into.clear(most_candidates(ball.k));
-    into.centre = ball.centre;
-    room.open();
-    let reach = about(ball.enough, ball.spread);
-    let mut all = All { into, bound: reach * reach, is_full: false };
-    walk::<K>(tree, ball.centre, &mut all, &mut room.open, eyes);
-    if all.is_full || into.near.len < ball.k {
-        return false;
+pub(super) struct Collect<'a, E> {
+    pub(super) tree: &'a WideTree,
+    pub(super) ball: &'a Ball,
+    pub(super) into: &'a mut Vicinity,
+    pub(super) room: &'a mut Room,
+    pub(super) eyes: &'a mut E,
+}
+
+impl<E: AccessObserver> Work for Collect<'_, E> {
+    type Found = bool;
+
+    #[inline(always)]
+    fn run<K: Kernels>(self) -> bool {
+        let Self { tree, ball, into, room, eyes } = self;
+        into.clear(most_candidates(ball.k));
+        into.centre = ball.centre;
+        room.open();
+        let reach = about(ball.enough, ball.spread);
+        let mut all = All { into, bound: reach * reach, is_full: false };
+        walk::<K>(tree, ball.centre, &mut all, &mut room.open, eyes);
+        if all.is_full || into.near.len < ball.k {
+            return false;
+        }
+        into.near.pad();
+        let enough = ball.enough * ball.enough;
+        if K::count(into.near.padded(), enough) < ball.k {
+            return false;
+        }
+        into.kth = kth::<K>(&into.near, ball.k, Bounds { floor: -1.0, bound: reach * reach });
+        keep::<K>(into, about(into.kth[1].sqrt(), ball.spread));
+        true
     }
-    into.near.pad();
-    let enough = ball.enough * ball.enough;
-    if K::count(into.near.padded(), enough) < ball.k {
-        return false;
-    }
-    into.kth = kth::<K>(&into.near, ball.k, Bounds { floor: -1.0, bound: reach * reach });
-    keep::<K>(into, about(into.kth[1].sqrt(), ball.spread));
-    true
 }
 
 /// How far from the middle of a group the nearest photons of its queries are, if k are within `enough` of it.
@@ -111,26 +118,33 @@ impl Leaves for All<'_> {
     }
 }
 
-/// Finds the photons nearest to `point`, a query of the group, within the largest distance that counts.
-#[inline(always)]
-pub(super) fn nearest_of<K: Kernels>(
-    tree: &WideTree,
-    vicinity: &Vicinity,
-    point: [f32; 3],
-    max_dist: f32,
-    found: &mut Nearest,
-) {
-    let between = distance_squared(vicinity.centre, point).sqrt();
-    let inside = Known::beside(between, vicinity.kth[0].sqrt()).inside;
-    let enough = Known::beside(between, vicinity.kth[1].sqrt()).enough.min(max_dist);
-    found.restart_between(inside * inside.abs(), enough * enough);
-    let bounds = Bounds { floor: found.floor(), bound: found.bound() };
-    let k = found.k();
-    let Room { chosen, shell, .. } = &mut found.room;
-    chosen.clear(k + WIDTH);
-    shell.clear(most_candidates(k));
-    share::<K>(vicinity, point, bounds, chosen, shell);
-    select::<K>(found, bounds, &tree.ids);
+/// Finds the photons nearest to a query of the group, within the largest distance that counts.
+pub(super) struct LookThrough<'a> {
+    pub(super) tree: &'a WideTree,
+    pub(super) vicinity: &'a Vicinity,
+    pub(super) point: [f32; 3],
+    pub(super) max_dist: f32,
+    pub(super) found: &'a mut Nearest,
+}
+
+impl Work for LookThrough<'_> {
+    type Found = ();
+
+    #[inline(always)]
+    fn run<K: Kernels>(self) {
+        let Self { tree, vicinity, point, max_dist, found } = self;
+        let between = distance_squared(vicinity.centre, point).sqrt();
+        let inside = Known::beside(between, vicinity.kth[0].sqrt()).inside;
+        let enough = Known::beside(between, vicinity.kth[1].sqrt()).enough.min(max_dist);
+        found.restart_between(inside * inside.abs(), enough * enough);
+        let bounds = Bounds { floor: found.floor(), bound: found.bound() };
+        let k = found.k();
+        let Room { chosen, shell, .. } = &mut found.room;
+        chosen.clear(k + WIDTH);
+        shell.clear(most_candidates(k));
+        share::<K>(vicinity, point, bounds, chosen, shell);
+        select::<K>(found, bounds, &tree.ids);
+    }
 }
 
 /// Shares photons out among those that are sure and those that may be.

@@ -5,13 +5,8 @@
 //! comparison, and packing the lanes of a mask. `cargo bench -p pm-programs --bench maps` compares the times.
 #![expect(unsafe_code, reason = "functions for instructions that not every machine has, called where they are there")]
 
-use super::group::{collect, nearest_of};
-use super::kernels::{Kernels, Plain};
-use super::search::search;
-use super::{WIDTH, WideTree};
-use crate::candidates::Room;
-use crate::vicinity::{Ball, Vicinity};
-use crate::{AccessObserver, Nearest};
+use super::WIDTH;
+use super::kernels::{Kernels, Plain, Work};
 
 /// Kinds of instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,68 +49,20 @@ impl Instructions {
         }
     }
 
-    /// Searches by these instructions.
+    /// Does some work by these instructions.
     #[inline]
-    pub(super) fn search(self, tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
+    pub(super) fn run<W: Work>(self, work: W) -> W::Found {
         match self {
             #[cfg(target_arch = "x86_64")]
             // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
-            Self::Avx512 => unsafe { x86::avx512(tree, point, found, eyes) },
+            Self::Avx512 => unsafe { x86::avx512(work) },
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.
-            Self::Avx2 => unsafe { x86::avx2(tree, point, found, eyes) },
+            Self::Avx2 => unsafe { x86::avx2(work) },
             #[cfg(target_arch = "x86_64")]
-            Self::Plain => search::<x86::Sse>(tree, point, found, eyes),
+            Self::Plain => work.run::<x86::Sse>(),
             #[cfg(not(target_arch = "x86_64"))]
-            _ => search::<Plain>(tree, point, found, eyes),
-        }
-    }
-
-    /// Collects what lies about a group by these instructions.
-    #[inline]
-    pub(super) fn collect(
-        self,
-        tree: &WideTree,
-        ball: &Ball,
-        into: &mut Vicinity,
-        room: &mut Room,
-        eyes: &mut impl AccessObserver,
-    ) -> bool {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
-            Self::Avx512 => unsafe { x86::avx512_collect(tree, ball, into, room, eyes) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: as above.
-            Self::Avx2 => unsafe { x86::avx2_collect(tree, ball, into, room, eyes) },
-            #[cfg(target_arch = "x86_64")]
-            Self::Plain => collect::<x86::Sse>(tree, ball, into, room, eyes),
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => collect::<Plain>(tree, ball, into, room, eyes),
-        }
-    }
-
-    /// Looks through what was collected by these instructions.
-    #[inline]
-    pub(super) fn nearest_of(
-        self,
-        tree: &WideTree,
-        vicinity: &Vicinity,
-        point: [f32; 3],
-        max_dist: f32,
-        found: &mut Nearest,
-    ) {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: a tree has only instructions that are there: `best` and `WideTree::with` see to it.
-            Self::Avx512 => unsafe { x86::avx512_nearest_of(tree, vicinity, point, max_dist, found) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: as above.
-            Self::Avx2 => unsafe { x86::avx2_nearest_of(tree, vicinity, point, max_dist, found) },
-            #[cfg(target_arch = "x86_64")]
-            Self::Plain => nearest_of::<x86::Sse>(tree, vicinity, point, max_dist, found),
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => nearest_of::<Plain>(tree, vicinity, point, max_dist, found),
+            _ => work.run::<Plain>(),
         }
     }
 }
@@ -126,57 +73,13 @@ mod x86 {
     use std::arch::x86_64::*;
 
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
-    pub(super) fn avx512(tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
-        search::<Avx512>(tree, point, found, eyes);
-    }
-
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
-    pub(super) fn avx512_collect(
-        tree: &WideTree,
-        ball: &Ball,
-        into: &mut Vicinity,
-        room: &mut Room,
-        eyes: &mut impl AccessObserver,
-    ) -> bool {
-        collect::<Avx512>(tree, ball, into, room, eyes)
-    }
-
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
-    pub(super) fn avx512_nearest_of(
-        tree: &WideTree,
-        vicinity: &Vicinity,
-        point: [f32; 3],
-        max_dist: f32,
-        found: &mut Nearest,
-    ) {
-        nearest_of::<Avx512>(tree, vicinity, point, max_dist, found);
+    pub(super) fn avx512<W: Work>(work: W) -> W::Found {
+        work.run::<Avx512>()
     }
 
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    pub(super) fn avx2_collect(
-        tree: &WideTree,
-        ball: &Ball,
-        into: &mut Vicinity,
-        room: &mut Room,
-        eyes: &mut impl AccessObserver,
-    ) -> bool {
-        collect::<Avx2>(tree, ball, into, room, eyes)
-    }
-
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    pub(super) fn avx2_nearest_of(
-        tree: &WideTree,
-        vicinity: &Vicinity,
-        point: [f32; 3],
-        max_dist: f32,
-        found: &mut Nearest,
-    ) {
-        nearest_of::<Avx2>(tree, vicinity, point, max_dist, found);
-    }
-
-    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-    pub(super) fn avx2(tree: &WideTree, point: [f32; 3], found: &mut Nearest, eyes: &mut impl AccessObserver) {
-        search::<Avx2>(tree, point, found, eyes);
+    pub(super) fn avx2<W: Work>(work: W) -> W::Found {
+        work.run::<Avx2>()
     }
 
     /// Plain loops but for the mask, of which compilers make sixteen comparisons.

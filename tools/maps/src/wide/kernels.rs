@@ -8,6 +8,15 @@
 use super::{Boxes, Leaf, WIDTH};
 use crate::candidates::Candidates;
 
+/// What is done with the lanes, whatever the instructions.
+pub(super) trait Work {
+    /// What comes of it.
+    type Found;
+
+    /// Does it. It has to be inlined, and so has all that it calls with `K`: into a function that may use the instructions.
+    fn run<K: Kernels>(self) -> Self::Found;
+}
+
 /// The lanes of a node or of a leaf.
 pub(super) trait Kernels {
     /// The lanes (a bit each) whose squared distance is at most `bound`.

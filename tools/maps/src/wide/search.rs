@@ -3,7 +3,7 @@
 //! Nodes are visited level by level, as long as there is room to set their children aside: how often a loop goes round is then
 //! known once a level, and not once a node, and processors foresee it.
 
-use super::kernels::{Kernels, box_distances, leaf_distances};
+use super::kernels::{Kernels, Work, box_distances, leaf_distances};
 use super::select::select;
 use super::{LEAVES, NODES, WIDTH, WideTree};
 use crate::candidates::{Candidates, MOST_OPEN, Open, Room};
@@ -16,26 +16,33 @@ pub(super) struct Bounds {
     pub(super) bound: f32,
 }
 
-/// Finds the photons nearest to `point` within the bound of `found`.
-#[inline(always)]
-pub(super) fn search<K: Kernels>(
-    tree: &WideTree,
-    point: [f32; 3],
-    found: &mut Nearest,
-    eyes: &mut impl AccessObserver,
-) {
-    let k = found.k();
-    let mut bounds = Bounds { floor: found.floor(), bound: found.bound() };
-    if bounds.bound >= f32::MAX && k < tree.photons {
-        bounds.bound = bounds.bound.min(enough(tree, point, k, eyes));
+/// Finds the photons nearest to a point within the bound of `found`.
+pub(super) struct Find<'a, E> {
+    pub(super) tree: &'a WideTree,
+    pub(super) point: [f32; 3],
+    pub(super) found: &'a mut Nearest,
+    pub(super) eyes: &'a mut E,
+}
+
+impl<E: AccessObserver> Work for Find<'_, E> {
+    type Found = ();
+
+    #[inline(always)]
+    fn run<K: Kernels>(self) {
+        let Self { tree, point, found, eyes } = self;
+        let k = found.k();
+        let mut bounds = Bounds { floor: found.floor(), bound: found.bound() };
+        if bounds.bound >= f32::MAX && k < tree.photons {
+            bounds.bound = bounds.bound.min(enough(tree, point, k, eyes));
+        }
+        let room = &mut found.room;
+        room.clear(k.min(tree.photons));
+        let Room { chosen, shell, open } = room;
+        let mut nearest = Sorted { bounds, k, chosen, shell };
+        walk::<K>(tree, point, &mut nearest, open, eyes);
+        bounds = nearest.bounds;
+        select::<K>(found, bounds, &tree.ids);
     }
-    let room = &mut found.room;
-    room.clear(k.min(tree.photons));
-    let Room { chosen, shell, open } = room;
-    let mut nearest = Sorted { bounds, k, chosen, shell };
-    walk::<K>(tree, point, &mut nearest, open, eyes);
-    bounds = nearest.bounds;
-    select::<K>(found, bounds, &tree.ids);
 }
 
 /// What becomes of the leaves that are reached.
