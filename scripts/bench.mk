@@ -3,13 +3,15 @@
 TAKEN += bench
 PEERS := --release --manifest-path tests/peers/Cargo.toml
 BENCH_PHOTONS := out/bench/450000.pmp out/bench/100000.pmp
-BENCH_QUERIES := out/bench/hilbert.pmq out/bench/scanline.pmq
+BENCH_QUERIES := out/bench/hilbert.pmq out/bench/scanline.pmq out/bench/random.pmq
+# How many photons are looked for, and within which distance.
+BENCH_AIMS := 10,50,100,500,100@0.01
 
 bench: $(BENCH_PHOTONS) $(BENCH_QUERIES) ## Speed, as ratios measured side by side, to other libraries as well: five minutes
 	$(CARGO) bench -p pm-programs
 	RUSTFLAGS='-C target-cpu=native' $(CARGO) build $(PEERS) --target-dir target/native
 	$(CARGO) build $(PEERS) --target-dir target/peers
-	target/peers/release/pm-peers 7 target/native/release/pm-peers 10,50,100,500 $(BENCH_PHOTONS) $(BENCH_QUERIES)
+	target/peers/release/pm-peers 7 target/native/release/pm-peers $(BENCH_AIMS) $(BENCH_PHOTONS) $(BENCH_QUERIES)
 
 out/bench/%.pmp: $(call made_with,PROGRAMS)
 	@mkdir -p $(@D)
@@ -26,8 +28,8 @@ BENCH_WINDOWS := --every 599808 --window 256 --warm-up 0
 out/bench/scanline.pmq: out/bench/all.pmq
 	$(BIN)/pm-sample -q $(BENCH_WINDOWS) $< -o $@
 
-out/bench/hilbert.pmq: out/bench/all.pmq
-	$(BIN)/pm-reorder -q hilbert $< | $(BIN)/pm-sample -q $(BENCH_WINDOWS) -o $@
+out/bench/hilbert.pmq out/bench/random.pmq: out/bench/%.pmq: out/bench/all.pmq
+	$(BIN)/pm-reorder -q $* $< | $(BIN)/pm-sample -q $(BENCH_WINDOWS) -o $@
 
 # Others' traces beside libCacheSim, if there is one: make bench-traces LIBCACHESIM=PYTHON. Some 46 million accesses an order.
 TAKEN += bench-traces

@@ -1,5 +1,6 @@
 //! What was found, and whether others found the same.
 
+use crate::aim::Aim;
 use crate::contestants::Contestant;
 use crate::streams::Queries;
 use anyhow::{Context as _, ensure};
@@ -16,11 +17,11 @@ pub(crate) struct Answers {
 
 impl Answers {
     /// Those of one of them.
-    pub(crate) fn of(contestant: &mut dyn Contestant, queries: &Queries, k: usize) -> Self {
+    pub(crate) fn of(contestant: &mut dyn Contestant, queries: &Queries, aim: Aim) -> Self {
         let (mut farthest, mut digest) = (vec![], 0_u64);
         contestant.run(
             queries,
-            k,
+            aim,
             Some(&mut |found: &[(f32, u32)]| {
                 farthest.push((found.iter().map(|one| one.0).fold(0.0, f32::max), found.len()));
                 let mixed = |&(distance, id): &(f32, u32)| {

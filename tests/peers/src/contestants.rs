@@ -1,10 +1,9 @@
-//! Who takes part: ours, and kiddo, each over the same photons.
+//! Who takes part: ours, each over the same photons.
 
+use crate::aim::Aim;
 use crate::streams::{Photons, Queries};
-use kiddo::{Eytzinger, FlatVec, QueryScratch, SquaredEuclidean};
 use pm_maps::{AnyMap, Blind, BucketKdTree, Carry, Groups, Instructions, KdTree, Layout, Nearest, Search, WideTree};
 use std::hint::black_box;
-use std::num::NonZero;
 
 /// Whoever looks at what was found for a query: squared distances and ids, in any order.
 pub(crate) type Eyes<'a> = Option<&'a mut dyn FnMut(&[(f32, u32)])>;
@@ -12,7 +11,7 @@ pub(crate) type Eyes<'a> = Option<&'a mut dyn FnMut(&[(f32, u32)])>;
 /// One who finds the k nearest.
 pub(crate) trait Contestant {
     /// Finds them for all queries, window by window, and shows them to the eyes, if there are any.
-    fn run(&mut self, queries: &Queries, k: usize, eyes: Eyes<'_>);
+    fn run(&mut self, queries: &Queries, aim: Aim, eyes: Eyes<'_>);
 }
 
 /// A map of ours that is being searched.
@@ -24,8 +23,8 @@ pub(crate) struct Ours<'a> {
 }
 
 impl Contestant for Ours<'_> {
-    fn run(&mut self, queries: &Queries, k: usize, mut eyes: Eyes<'_>) {
-        let mut found = Nearest::new(k, 0.0);
+    fn run(&mut self, queries: &Queries, aim: Aim, mut eyes: Eyes<'_>) {
+        let mut found = Nearest::new(aim.k, 0.0);
         let mut show = |found: &Nearest| match &mut eyes {
             Some(eyes) => eyes(&found.iter().collect::<Vec<_>>()),
             None => _ = black_box(found.bound()),
@@ -77,12 +76,22 @@ impl Map {
         Self { name, map: Box::new(map), how }
     }
 
-    /// Searched for the k nearest, from a radius fit for it.
-    pub(crate) fn searched_for(&self, k: usize, photons: &Photons) -> Ours<'_> {
-        let search = Search::new(k, f32::INFINITY).fit_start(&*self.map, &photons.records);
+    /// Searched for the nearest, from a radius fit for so many.
+    pub(crate) fn searched_for(&self, aim: Aim, photons: &Photons) -> Ours<'_> {
+        let search = Search::new(aim.k, aim.max_dist).fit_start(&*self.map, &photons.records);
         Ours { name: self.name, map: &*self.map, search, how: self.how }
     }
 }
+
+/// How the structures of ours are built.
+pub(crate) const STRUCTURES: [(&str, Build); 3] = [
+    ("kd", |photons| Ok(Box::new(KdTree::build(&photons.records, Layout::Heap)?))),
+    ("bucket-kd", |photons| Ok(Box::new(BucketKdTree::build(&photons.records, Layout::Heap, 320)?))),
+    ("wide", |photons| Ok(Box::new(WideTree::build(&photons.records)?))),
+];
+
+/// Builds a map.
+type Build = fn(&Photons) -> anyhow::Result<Box<dyn AnyMap>>;
 
 /// The maps of ours; the first says what is right.
 pub(crate) fn ours(photons: &Photons) -> anyhow::Result<Vec<Map>> {
@@ -103,35 +112,4 @@ pub(crate) fn ours(photons: &Photons) -> anyhow::Result<Vec<Map>> {
         }
     }
     Ok(maps)
-}
-
-type Tree = kiddo::KdTree<f32, u32, Eytzinger, FlatVec<f32, u32, 3, 16>, 3, 16>;
-
-/// kiddo as it is fastest: buckets of 16, answers unsorted, room used again.
-pub(crate) struct Kiddo {
-    tree: Tree,
-    scratch: QueryScratch<Eytzinger, f32, 3>,
-}
-
-impl Kiddo {
-    /// Its tree of these photons.
-    pub(crate) fn build(photons: &Photons) -> anyhow::Result<Self> {
-        let points: Vec<[f32; 3]> = photons.records.iter().map(|photon| photon.position).collect();
-        let tree = Tree::new_from_slice(&points).map_err(|error| anyhow::anyhow!("kiddo: {error:?}"))?;
-        Ok(Self { scratch: tree.create_scratch::<SquaredEuclidean<f32>>(), tree })
-    }
-}
-
-impl Contestant for Kiddo {
-    fn run(&mut self, queries: &Queries, k: usize, mut eyes: Eyes<'_>) {
-        let k = NonZero::new(k).expect("k is not 0");
-        for point in queries.points.iter().flatten() {
-            let query = self.tree.query(point).nearest_n::<SquaredEuclidean<f32>>(k).unsorted();
-            let found = query.with_scratch(&mut self.scratch).execute();
-            match &mut eyes {
-                Some(eyes) => eyes(&found.iter().map(|one| (one.distance, one.item)).collect::<Vec<_>>()),
-                None => _ = black_box(found.len()),
-            }
-        }
-    }
 }

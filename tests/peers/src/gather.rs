@@ -7,14 +7,14 @@ use pm_film::irradiance::CachedIrradiance;
 use pm_gathering::{Answerer, Edges, EstimateOptions, Estimator, Kernel, RadianceEstimate};
 use pm_maps::{AnyMap, Search};
 
-/// Nanoseconds a query: the search alone, and with estimate and film.
+/// Nanoseconds a query: the search alone, and with estimate and film; and the ratio of the two within a round.
 pub(crate) fn measure(
     map: &dyn AnyMap,
     photons: &Photons,
     queries: &Queries,
     k: usize,
     rounds: usize,
-) -> anyhow::Result<[f64; 2]> {
+) -> anyhow::Result<[f64; 3]> {
     let Queries { header, blocks, .. } = queries;
     let search = Search::new(k, f32::INFINITY).fit_start(map, &photons.records);
     let options = EstimateOptions {
@@ -59,5 +59,7 @@ pub(crate) fn measure(
             times.push(took / queries.len() as f64);
         }
     }
-    Ok(times.map(|mut times| median(&mut times)))
+    let [alone, picture] = &mut times;
+    let mut ratios: Vec<f64> = picture.iter().zip(&*alone).map(|(picture, alone)| picture / alone).collect();
+    Ok([median(alone), median(picture), median(&mut ratios)])
 }

@@ -1,9 +1,10 @@
-//! The peer, in a process of its own: its instructions are chosen when it is built, so it is built for this very machine,
-//! and ours, which choose theirs when they run, for any.
+//! The libraries, in a process of their own: their instructions are chosen when they are built, so they are built for this
+//! very machine, and ours, which choose theirs when they run, for any.
 
+use crate::aim::Aim;
 use crate::answers::Answers;
 use crate::clock::nanoseconds;
-use crate::contestants::{Contestant as _, Kiddo};
+use crate::libraries::LIBRARIES;
 use crate::streams::{Photons, Queries};
 use anyhow::Context as _;
 use std::fmt::Display;
@@ -15,8 +16,6 @@ pub(crate) struct Peer {
     child: Child,
     questions: ChildStdin,
     replies: BufReader<ChildStdout>,
-    /// Nanoseconds that building its tree took.
-    pub(crate) built: f64,
 }
 
 impl Peer {
@@ -27,9 +26,7 @@ impl Peer {
         let mut child = command.spawn().with_context(|| program.to_owned())?;
         let questions = child.stdin.take().context("standard input")?;
         let replies = BufReader::new(child.stdout.take().context("standard output")?);
-        let mut peer = Self { child, questions, replies, built: 0.0 };
-        peer.built = peer.reply()?.parse()?;
-        Ok(peer)
+        Ok(Self { child, questions, replies })
     }
 
     fn reply(&mut self) -> anyhow::Result<String> {
@@ -39,15 +36,21 @@ impl Peer {
         Ok(line.trim().to_owned())
     }
 
-    /// What it finds.
-    pub(crate) fn answers(&mut self, k: usize) -> anyhow::Result<Answers> {
-        writeln!(self.questions, "answers {k}")?;
+    /// What a library finds.
+    pub(crate) fn answers(&mut self, library: usize, aim: Aim) -> anyhow::Result<Answers> {
+        writeln!(self.questions, "answers {library} {aim}")?;
         self.reply()?.parse()
     }
 
-    /// Nanoseconds that all queries took.
-    pub(crate) fn round(&mut self, k: usize) -> anyhow::Result<f64> {
-        writeln!(self.questions, "round {k}")?;
+    /// Nanoseconds that all queries took a library.
+    pub(crate) fn round(&mut self, library: usize, aim: Aim) -> anyhow::Result<f64> {
+        writeln!(self.questions, "round {library} {aim}")?;
+        Ok(self.reply()?.parse()?)
+    }
+
+    /// Nanoseconds that a library took to build its tree once more.
+    pub(crate) fn building(&mut self, library: usize) -> anyhow::Result<f64> {
+        writeln!(self.questions, "build {library} 1")?;
         Ok(self.reply()?.parse()?)
     }
 
@@ -63,18 +66,23 @@ impl Peer {
 /// What its process does.
 pub(crate) fn serve(photons: &str, queries: &str) -> anyhow::Result<()> {
     let (photons, queries) = (Photons::read(photons)?, Queries::read(queries)?);
-    let (kiddo, built) = nanoseconds(|| Kiddo::build(&photons))?;
-    let mut kiddo = kiddo?;
+    let mut contestants = LIBRARIES.iter().map(|library| (library.build)(&photons)).collect::<Result<Vec<_>, _>>()?;
     let mut out = stdout();
     let mut say = |reply: &dyn Display| writeln!(out, "{reply}");
-    say(&built)?;
     for line in stdin().lines() {
         let line = line?;
-        let (question, k) = line.split_once(' ').context("a question")?;
-        let k = k.parse()?;
+        let words: Vec<&str> = line.split(' ').collect();
+        let &[question, library, aim] = &words[..] else { anyhow::bail!("a question") };
+        let (library, aim): (usize, Aim) = (library.parse()?, aim.parse()?);
+        let contestant = &mut contestants[library];
         match question {
-            "answers" => say(&Answers::of(&mut kiddo, &queries, k))?,
-            _ => say(&nanoseconds(|| kiddo.run(&queries, k, None))?.1)?,
+            "answers" => say(&Answers::of(&mut **contestant, &queries, aim))?,
+            "build" => {
+                let (built, took) = nanoseconds(|| (LIBRARIES[library].build)(&photons))?;
+                drop(built?);
+                say(&took)?;
+            }
+            _ => say(&nanoseconds(|| contestant.run(&queries, aim, None))?.1)?,
         }
     }
     Ok(())
