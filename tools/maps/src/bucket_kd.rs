@@ -10,6 +10,7 @@ use super::geometry::{extent, longest_axis};
 use super::layout::{Layout, left_size, record_of};
 use super::photon_blocks::PhotonBlocks;
 use super::point::Point;
+use super::select_nth::select_nth;
 use super::split_tree::{self, Node, SplitTree};
 use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
@@ -68,7 +69,7 @@ impl BucketKdTree {
         // A tree of n leaves has 2n - 1 nodes.
         let left_leaves = left_size(2 * leaves - 1).div_ceil(2);
         let axis = longest_axis(&extent(points.iter().map(|point| point.position)));
-        points.select_nth_unstable_by(left_leaves * capacity, Point::along(axis));
+        select_nth(points, left_leaves * capacity, axis);
         let (left, right) = points.split_at_mut(left_leaves * capacity);
         let low = left.iter().fold(f32::NEG_INFINITY, |low, point| low.max(point.position[axis]));
         self.splits[at - 1] = Split::new(axis, low, right[0].position[axis]);

@@ -12,11 +12,17 @@ pub fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f32 {
 pub(super) type Box3 = ([f32; 3], [f32; 3]);
 
 /// The smallest box that holds all of some positions.
+#[inline]
 pub(super) fn extent(positions: impl IntoIterator<Item = [f32; 3]>) -> Box3 {
-    let none = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    positions.into_iter().fold(none, |(low, high), position| {
-        ([0, 1, 2].map(|axis| position[axis].min(low[axis])), [0, 1, 2].map(|axis| position[axis].max(high[axis])))
-    })
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for position in positions {
+        for axis in 0..3 {
+            // One instruction each, where `min` and `max` take several: it is false for what is no number.
+            low[axis] = if position[axis] < low[axis] { position[axis] } else { low[axis] };
+            high[axis] = if position[axis] > high[axis] { position[axis] } else { high[axis] };
+        }
+    }
+    (low, high)
 }
 
 /// The axis along which a box is longest, the first of equals.

@@ -8,6 +8,7 @@ mod search;
 use super::error::check;
 use super::geometry::{Box3, extent, longest_axis};
 use super::layout::{Layout, left_size, record_of};
+use super::select_nth::{Placed, select_nth};
 use super::{AccessObserver, BuildError, Nearest, PhotonMap};
 use pm_formats::Photon;
 use pm_formats::trace::{Coding, Region, lay_out};
@@ -40,6 +41,18 @@ impl Node {
     #[inline(always)]
     const fn axis(self) -> usize {
         (self.id_and_axis >> 30) as usize
+    }
+}
+
+impl Placed for Node {
+    #[inline(always)]
+    fn coordinate(&self, axis: usize) -> f32 {
+        self.position[axis]
+    }
+
+    #[inline(always)]
+    fn id(&self) -> u32 {
+        Self::id(*self)
     }
 }
 
@@ -82,15 +95,19 @@ impl KdTree {
 }
 
 fn balance(nodes: &mut [Node], at: usize, rest: &mut [Node], cell: Box3) {
-    if rest.is_empty() {
-        return;
-    }
     let axis = longest_axis(&cell);
+    match rest {
+        [] => return,
+        [node] => {
+            nodes[at - 1] = Node { id_and_axis: node.id() | (axis as u32) << 30, ..*node };
+            return;
+        }
+        _ => {}
+    }
     let middle = left_size(rest.len());
-    let (left, &mut median, right) = rest.select_nth_unstable_by(middle, |a, b| {
-        // No NaN gets here; -0 and 0 are one coordinate.
-        a.position[axis].partial_cmp(&b.position[axis]).unwrap_or(std::cmp::Ordering::Equal).then(a.id().cmp(&b.id()))
-    });
+    select_nth(rest, middle, axis);
+    let (left, others) = rest.split_at_mut(middle);
+    let Some((&mut median, right)) = others.split_first_mut() else { return };
     let split = median.position[axis];
     nodes[at - 1] = Node { id_and_axis: median.id() | (axis as u32) << 30, ..median };
     let (mut left_cell, mut right_cell) = (cell, cell);

@@ -52,6 +52,7 @@ mod point;
 mod reverse;
 mod search;
 mod search_reads;
+mod select_nth;
 mod split_tree;
 mod start_radius;
 mod structure;

@@ -11,6 +11,7 @@ use super::chosen_ids::chosen_ids;
 use super::error::check;
 use super::geometry::{Box3, distance_squared, extent, longest_axis};
 use super::point::Point;
+use super::select_nth::select_nth;
 use super::split_tree::{self, Node, SplitTree};
 use super::{AccessObserver, Blind, BucketKdTree, BuildError, Layout, Nearest, PhotonMap, Search};
 use heuristic::best_split;
@@ -133,8 +134,8 @@ fn typical_radius(photons: &[Photon], k: usize) -> Result<f64, BuildError> {
 fn median(points: &mut [Point]) -> (usize, usize, f32) {
     let axis = longest_axis(&extent(points.iter().map(|point| point.position)));
     let middle = points.len() / 2;
-    let (_, median, _) = points.select_nth_unstable_by(middle, Point::along(axis));
-    (axis, middle, median.position[axis])
+    select_nth(points, middle, axis);
+    (axis, middle, points[middle].position[axis])
 }
 
 impl SplitTree for VvhTree {

@@ -3,6 +3,7 @@
 use super::{Child, Page, PageForm, Target};
 use crate::geometry::{Box3, extent, longest_axis};
 use crate::point::Point;
+use crate::select_nth::select_nth;
 
 /// What the recursion that makes pages needs to know.
 pub(super) struct Builder {
@@ -63,7 +64,7 @@ fn cut<'a>(points: &'a mut [Point], cell: Box3, count: usize, below: usize, part
     let axis = longest_axis(&cell);
     let left_count = count / 2;
     let middle = left_count * below;
-    points.select_nth_unstable_by(middle, Point::along(axis));
+    select_nth(points, middle, axis);
     let plane = points[middle].position[axis];
     let (left, right) = points.split_at_mut(middle);
     let (mut left_cell, mut right_cell) = (cell, cell);

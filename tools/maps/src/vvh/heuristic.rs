@@ -2,6 +2,7 @@
 
 use crate::geometry::{Box3, extent};
 use crate::point::Point;
+use crate::select_nth::select_nth;
 use std::f64::consts::PI;
 
 /// Sets of more photons than this are split at the rims of [`BINS`] bins a side, smaller ones at any photon.
@@ -63,7 +64,7 @@ pub(super) fn best_split(points: &mut [Point], cell: &Box3, radius: f64) -> Opti
     }
     let (axis, left, plane) = best.1?;
     // The photons left of the split are the `left` first along its axis, by coordinate alone.
-    points.select_nth_unstable_by(left, Point::along(axis));
+    select_nth(points, left, axis);
     Some((axis, left, plane))
 }
 

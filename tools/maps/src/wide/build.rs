@@ -3,6 +3,7 @@
 use super::{Boxes, Instructions, Leaf, Level, WIDTH, WideTree};
 use crate::geometry::{Box3, extent, longest_axis};
 use crate::point::Point;
+use crate::select_nth::select_nth;
 use pm_formats::Photon;
 use std::sync::Arc;
 
@@ -58,7 +59,7 @@ impl WideTree {
         }
         let middle = lanes.start + lanes.len().div_ceil(2);
         let left = (middle - lanes.start) * in_child;
-        points.select_nth_unstable_by(left, Point::along(longest_axis(&bounds)));
+        select_nth(points, left, longest_axis(&bounds));
         let (below, above) = points.split_at_mut(left);
         self.share(depth, at, lanes.start..middle, in_child, below);
         self.share(depth, at, middle..lanes.end, in_child, above);
