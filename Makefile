@@ -11,7 +11,7 @@ NAMES := $(addprefix pm-,photons queries reorder sample gather cachesim chart vi
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help programs run accuracy pictures coverage plan-coverage plan-traffic need charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz same-bytes licences advisories bench later bench-traces man options test-cluster install dist clean clean-streams
+.PHONY: help programs run accuracy pictures coverage plan-coverage plan-traffic need charts-cache frontier structures scenes test check test-python full-size causes stability faults fuzz same-bytes licences advisories bench bench-growth peers later bench-traces man options test-cluster install dist clean clean-streams
 
 help: ## List the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1             ## /; s/^\([a-z-].\{12\}\) *## /  make \1 /p' $(MAKEFILE_LIST)

@@ -93,6 +93,16 @@ pub(crate) const STRUCTURES: [(&str, Build); 3] = [
 /// Builds a map.
 type Build = fn(&Photons) -> anyhow::Result<Box<dyn AnyMap>>;
 
+/// The maps of ours of which is shown how their costs grow, by the best instructions that there are.
+pub(crate) fn grown(photons: &Photons) -> anyhow::Result<Vec<Map>> {
+    let records = &photons.records[..];
+    Ok(vec![
+        Map::new("kd", KdTree::build(records, Layout::Heap)?, How::Plain),
+        Map::new("wide --carry", WideTree::build(records)?, How::Carried),
+        Map::new("wide --group 32", WideTree::build(records)?, How::Grouped(32)),
+    ])
+}
+
 /// The maps of ours; the first says what is right.
 pub(crate) fn ours(photons: &Photons) -> anyhow::Result<Vec<Map>> {
     let records = &photons.records[..];

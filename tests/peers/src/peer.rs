@@ -55,9 +55,9 @@ impl Peer {
     }
 
     /// Ends it.
-    pub(crate) fn end(self) -> anyhow::Result<()> {
-        let Self { mut child, questions, .. } = self;
-        drop(questions);
+    pub(crate) fn end(&mut self) -> anyhow::Result<()> {
+        let Self { child, questions, .. } = self;
+        writeln!(questions, "end 0 1")?;
         anyhow::ensure!(child.wait()?.success(), "the peer's process has failed");
         Ok(())
     }
@@ -82,6 +82,7 @@ pub(crate) fn serve(photons: &str, queries: &str) -> anyhow::Result<()> {
                 drop(built?);
                 say(&took)?;
             }
+            "end" => break,
             _ => say(&nanoseconds(|| contestant.run(&queries, aim, None))?.1)?,
         }
     }

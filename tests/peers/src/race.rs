@@ -3,108 +3,83 @@
 use crate::aim::Aim;
 use crate::answers::Answers;
 use crate::clock::{median, nanoseconds};
-use crate::contestants::{Contestant as _, Map, Ours, STRUCTURES, ours};
-use crate::gather;
+use crate::contestants::{Contestant as _, Ours, STRUCTURES};
 use crate::libraries::{LIBRARIES, Library};
 use crate::peer::Peer;
 use crate::streams::{Photons, Queries};
-use anyhow::{Context as _, ensure};
-use std::io::{Write as _, stdout};
+use anyhow::ensure;
 
-/// What is measured.
-pub(crate) struct Bench<'a> {
-    pub(crate) rounds: usize,
-    /// This program, built for this very machine.
-    pub(crate) native: &'a str,
-    pub(crate) aims: &'a [Aim],
-    pub(crate) queries: &'a [&'a str],
+/// How one of them fared, the libraries first, of which the first is the yardstick.
+pub(crate) struct Fared {
+    pub(crate) name: &'static str,
+    /// Of all queries, or of building once: the median.
+    pub(crate) nanoseconds: f64,
+    /// To the yardstick's within a round: the median.
+    pub(crate) ratio: f64,
 }
 
-impl Bench<'_> {
-    /// Prints how all of them fare with a map's photons.
-    pub(crate) fn photons(&self, path: &str) -> anyhow::Result<()> {
-        let photons = Photons::read(path)?;
-        let maps = ours(&photons)?;
-        for (number, queries_path) in self.queries.iter().enumerate() {
-            let mut peer = Peer::start(self.native, path, queries_path)?;
-            let queries = Queries::read(queries_path)?;
-            if number == 0 {
-                self.building(&mut peer, &photons)?;
-            }
-            let (count, windows) = (photons.records.len(), queries.points.len());
-            writeln!(stdout(), "{count} photons, {queries_path}: {} queries in {windows} windows", queries.len())?;
-            let others = LIBRARIES[1..].iter().map(|library| library.name);
-            let names = others
-                .chain(maps.iter().map(|map| map.name))
-                .fold(String::new(), |all, name| format!("{all}  {name:>5}"));
-            writeln!(stdout(), "       k  {}, ns{names}", LIBRARIES[0].name)?;
-            for &aim in self.aims {
-                self.race(&mut peer, maps.iter().map(|map| map.searched_for(aim, &photons)).collect(), &queries, aim)?;
-            }
-            peer.end()?;
-            self.picture(maps.last().context("a map")?, &photons, &queries)?;
+/// How long it takes to build each, so often.
+pub(crate) fn building(peer: &mut Peer, photons: &Photons, rounds: usize) -> anyhow::Result<Vec<Fared>> {
+    let ours = STRUCTURES.iter().map(|structure| structure.0);
+    let mut times = Times::of(LIBRARIES.iter().map(|library| library.name).chain(ours));
+    for _ in 0..rounds {
+        let libraries = (0..LIBRARIES.len()).map(|library| peer.building(library));
+        let ours = STRUCTURES.iter().map(|(_, build)| {
+            let (built, took) = nanoseconds(|| build(photons))?;
+            built.map(|_| took)
+        });
+        times.round(libraries.chain(ours))?;
+    }
+    Ok(times.fared())
+}
+
+/// How long searches take each, so often; all have to find the same.
+pub(crate) fn searching(
+    peer: &mut Peer,
+    mut ours: Vec<Ours<'_>>,
+    queries: &Queries,
+    aim: Aim,
+    rounds: usize,
+) -> anyhow::Result<Vec<Fared>> {
+    let truth = Answers::of(&mut ours[0], queries, aim);
+    for (library, Library { name, .. }) in LIBRARIES.iter().enumerate() {
+        truth.compare(name, &peer.answers(library, aim)?)?;
+    }
+    for map in &mut ours[1..] {
+        ensure!(Answers::of(map, queries, aim).digest == truth.digest, "{}: other photons", map.name);
+    }
+    let names = ours.iter().map(|map| map.name);
+    let mut times = Times::of(LIBRARIES.iter().map(|library| library.name).chain(names));
+    for _ in 0..rounds {
+        let libraries = (0..LIBRARIES.len()).map(|library| peer.round(library, aim));
+        let ours = ours.iter_mut().map(|map| Ok(nanoseconds(|| map.run(queries, aim, None))?.1));
+        times.round(libraries.chain(ours))?;
+    }
+    Ok(times.fared())
+}
+
+/// Times of each, round by round.
+struct Times(Vec<(&'static str, Vec<f64>)>);
+
+impl Times {
+    fn of(names: impl Iterator<Item = &'static str>) -> Self {
+        Self(names.map(|name| (name, vec![])).collect())
+    }
+
+    /// A round of all of them, one after the other.
+    fn round(&mut self, took: impl Iterator<Item = anyhow::Result<f64>>) -> anyhow::Result<()> {
+        for ((_, times), took) in self.0.iter_mut().zip(took) {
+            times.push(took?);
         }
         Ok(())
     }
 
-    /// How long it takes to build each.
-    fn building(&self, peer: &mut Peer, photons: &Photons) -> anyhow::Result<()> {
-        let names: Vec<&str> =
-            LIBRARIES[1..].iter().map(|it| it.name).chain(STRUCTURES.iter().map(|it| it.0)).collect();
-        let (mut yardstick, mut ratios) = (vec![], vec![vec![]; names.len()]);
-        for _ in 0..self.rounds {
-            let theirs = peer.building(0)?;
-            yardstick.push(theirs);
-            for (library, ratios) in (1..LIBRARIES.len()).zip(&mut ratios) {
-                ratios.push(peer.building(library)? / theirs);
-            }
-            for ((_, build), ratios) in STRUCTURES.iter().zip(&mut ratios[LIBRARIES.len() - 1..]) {
-                let (built, took) = nanoseconds(|| build(photons))?;
-                drop(built?);
-                ratios.push(took / theirs);
-            }
-        }
-        let first = format!("{} {:.1} ms", LIBRARIES[0].name, median(&mut yardstick) / 1e6);
-        let others = names.iter().zip(&mut ratios).map(|(name, ratios)| format!("  {name} {:.2}", median(ratios)));
-        Ok(writeln!(stdout(), "{} photons, built: {first}{}", photons.records.len(), others.collect::<String>())?)
-    }
-
-    /// The search alone, and with estimate and film.
-    fn picture(&self, map: &Map, photons: &Photons, queries: &Queries) -> anyhow::Result<()> {
-        let [alone, picture, ratio] = gather::measure(&*map.map, photons, queries, 100, self.rounds)?;
-        Ok(writeln!(
-            stdout(),
-            "  with a picture, k = 100: {picture:.0} ns, {ratio:.2} of the search alone ({alone:.0})"
-        )?)
-    }
-
-    /// One search after the other, round by round.
-    fn race(&self, peer: &mut Peer, mut ours: Vec<Ours<'_>>, queries: &Queries, aim: Aim) -> anyhow::Result<()> {
-        let truth = Answers::of(&mut ours[0], queries, aim);
-        for (library, Library { name, .. }) in LIBRARIES.iter().enumerate() {
-            truth.compare(name, &peer.answers(library, aim)?)?;
-        }
-        for map in &mut ours[1..] {
-            ensure!(Answers::of(map, queries, aim).digest == truth.digest, "{}: other photons", map.name);
-        }
-        let others = LIBRARIES.len() - 1;
-        let (mut yardstick, mut ratios) = (vec![], vec![vec![]; others + ours.len()]);
-        for _ in 0..self.rounds {
-            let theirs = peer.round(0, aim)?;
-            yardstick.push(theirs);
-            for (other, ratios) in ratios[..others].iter_mut().enumerate() {
-                ratios.push(peer.round(other + 1, aim)? / theirs);
-            }
-            for (map, ratios) in ours.iter_mut().zip(&mut ratios[others..]) {
-                let ((), took) = nanoseconds(|| map.run(queries, aim, None))?;
-                ratios.push(took / theirs);
-            }
-        }
-        write!(stdout(), "{aim:>8}  {:9.0}", median(&mut yardstick) / queries.len() as f64)?;
-        let names = LIBRARIES[1..].iter().map(|library| library.name).chain(ours.iter().map(|map| map.name));
-        for (name, ratios) in names.zip(&mut ratios) {
-            write!(stdout(), "  {:w$.3}", median(ratios), w = name.len().max(5))?;
-        }
-        Ok(writeln!(stdout())?)
+    fn fared(self) -> Vec<Fared> {
+        let yardstick = self.0[0].1.clone();
+        let fared = |(name, mut times): (&'static str, Vec<f64>)| {
+            let mut ratios: Vec<f64> = times.iter().zip(&yardstick).map(|(took, theirs)| took / theirs).collect();
+            Fared { name, nanoseconds: median(&mut times), ratio: median(&mut ratios) }
+        };
+        self.0.into_iter().map(fared).collect()
     }
 }

@@ -1,8 +1,8 @@
 //! What is searched: photons, and windows of queries.
 
 use anyhow::Context as _;
-use pm_formats::vocabulary::measure;
-use pm_formats::{Block, BlockReader, Header, Number, Photon, Query, RecordReader, decode_records};
+use pm_formats::vocabulary::{meaning, measure};
+use pm_formats::{Block, BlockReader, Header, Number, Photon, Query, RecordReader, Tally, decode_records};
 use std::fs::File;
 use std::io::BufReader;
 
@@ -30,6 +30,10 @@ impl Photons {
 /// Windows of a stream of queries, each from the middle of a chain of searches.
 pub(crate) struct Queries {
     pub(crate) header: Header,
+    /// In which order they come.
+    pub(crate) order: String,
+    /// How many the stream had of which these are windows.
+    pub(crate) of: u64,
     pub(crate) blocks: Vec<Block>,
     /// Where is searched, window by window.
     pub(crate) points: Vec<Vec<[f32; 3]>>,
@@ -40,17 +44,24 @@ impl Queries {
     pub(crate) fn read(path: &str) -> anyhow::Result<Self> {
         let mut reader = BlockReader::new(open(path)?)?;
         let header = reader.header().clone();
-        let (mut blocks, mut points) = (vec![], vec![]);
+        let (mut blocks, mut points, mut tally) = (vec![], vec![], Tally::default());
         while let Some(block) = reader.next_block()? {
+            let (queries, more) = decode_records::<Query>(&block).context("queries")?;
+            tally += more;
             // A window is whole without what warms caches up.
             if block.meta.warm_up {
                 continue;
             }
-            let (queries, _) = decode_records::<Query>(&block).context("queries")?;
             points.push(queries.iter().map(|query| query.position).collect());
             blocks.push(block);
         }
-        Ok(Self { header, blocks, points })
+        let of = match reader.end(tally)?.measure(measure::QUERIES_GIVEN) {
+            Some(Number::Count(given)) => given,
+            _ => anyhow::bail!("{path}: of how many queries is this a sample?"),
+        };
+        let order = [meaning::DEFERRED_ORDER, meaning::ORDER].iter().find_map(|name| header.meaning(name));
+        let order = order.map_or_else(String::new, ToString::to_string);
+        Ok(Self { header, order, of, blocks, points })
     }
 
     /// How many there are.

@@ -93,6 +93,18 @@ fn every_kind_of_instructions_reads_and_finds_the_same_where_maps_break() {
 }
 
 #[test]
+fn one_photon_is_found_without_reading_all_that_is_nearer_than_the_last_query() {
+    // At a photon the nearest one is no distance away, which tells nothing of a radius for other places.
+    let photons = photons(walls(20_000, 11));
+    for tree in trees(&photons) {
+        let search = Search::new(1, f32::INFINITY).fit_start(&tree, &photons);
+        let (mut found, mut carry, mut reads) = (Nearest::new(1, 0.0), Carry::default(), SearchReads::default());
+        walls(200, 12).into_iter().for_each(|point| _ = carry.run(&search, &tree, point, &mut found, &mut reads));
+        assert!(reads.len() < 200 * 16, "{} reads", reads.len());
+    }
+}
+
+#[test]
 fn what_is_carried_is_exact_along_a_path_over_equal_distances() {
     // On a lattice many photons are as far as the k-th, and bounds from above and below lie close about them.
     let photons = photons((0..32_768u32).map(|i| [i % 32, i / 32 % 32, i / 1024].map(|x| x as f32 / 16.0)));
