@@ -303,8 +303,13 @@ impl TraceSink for Simulation {
     }
 
     // Said here so that it is compiled with the caches, as fast as they are, and not with whoever replays.
-    fn accesses(&mut self, accesses: &[Access]) {
-        accesses.iter().for_each(|&access| self.access(access));
+    fn accesses(&mut self, mut accesses: &[Access]) {
+        while !accesses.is_empty() {
+            if self.waiting.is_full() {
+                self.flush();
+            }
+            accesses = &accesses[self.waiting.push_all(accesses)..];
+        }
     }
 
     fn records(&mut self, region: u16, size: u32, mut records: &[u32]) {

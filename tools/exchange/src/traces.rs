@@ -29,7 +29,7 @@ mod unpack;
 pub use archive::{archive, header_of};
 pub use export::{Carried, Kinds, PieceWriter, TraceExport, Unwritten};
 pub use exporter::Exporter;
-pub use import::{AssumedSize, EntryParser, EntryShape, Example, ParserOfColumns, Recognition, TraceImport};
+pub use import::{AssumedSize, EntryParser, EntryShape, Example, ParserOfColumns, Recognition, Sizes, TraceImport};
 pub use open::{Opened, open};
 pub use part::Part;
 pub use pieces::Piece;

@@ -54,6 +54,18 @@ impl AccessBuffer {
         true
     }
 
+    /// Adds as many of these as there is room for, and says how many that is.
+    pub(crate) fn push_all(&mut self, accesses: &[Access]) -> usize {
+        let number = accesses.len().min(CHUNK - self.end);
+        let places = self.end..self.end + number;
+        let room = self.offsets[places.clone()].iter_mut().zip(&mut self.shapes[places]);
+        for ((offset, shape), access) in room.zip(accesses) {
+            (*offset, *shape) = (access.offset, Shape::new(access));
+        }
+        self.end += number;
+        number
+    }
+
     /// Adds as many of the reads of these records as there is room for, and says how many that is.
     pub(crate) fn push_records(&mut self, region: u16, size: u32, records: &[u32]) -> usize {
         let number = records.len().min(CHUNK - self.end);

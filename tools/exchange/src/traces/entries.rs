@@ -10,7 +10,7 @@ use std::io::{BufRead, ErrorKind, Read as _};
 pub(super) const LONGEST_LINE: u64 = 1 << 16;
 
 /// Longest access that an entry may tell of, in bytes: whoever reads a format as another meets longer ones soon.
-const LONGEST_ACCESS: u32 = pm_formats::trace::MAX_ACCESS;
+pub(super) const LONGEST_ACCESS: u32 = pm_formats::trace::MAX_ACCESS;
 
 /// Reads entries and knows which it is at.
 pub(super) struct Entries<R> {

@@ -1,7 +1,9 @@
 //! What a format of traces is to those who read it.
 
-use super::{Numbered, Parsed, Reference};
+use super::entries::LONGEST_ACCESS;
+use super::{EntryKind, Numbered, Parsed, Reference};
 use crate::BadQuestion;
+use pm_formats::trace::Access;
 use pm_registry::Registered;
 
 /// A format of traces that is read: an entry of [`imports`](super::imports).
@@ -89,6 +91,14 @@ pub trait EntryParser {
         Ok(())
     }
 
+    /// Replaces `accesses` by what records of `bytes` bytes each tell, if all is plain: accesses to data that end within all
+    /// addresses, one a record and none longer than is believed. False if not, or if the parser remembers what it read: then
+    /// nothing happened but that what is in `accesses` is worthless.
+    fn plain_records(&mut self, records: &[u8], bytes: usize, sizes: Sizes, accesses: &mut Vec<Access>) -> bool {
+        let _ = (records, bytes, sizes, accesses);
+        false
+    }
+
     /// No more entries follow.
     ///
     /// # Errors
@@ -98,10 +108,44 @@ pub trait EntryParser {
     }
 }
 
-impl<F: FnMut(&[u8]) -> Parsed> EntryParser for F {
+/// Bytes of the accesses that entries tell of.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// Of all, whatever the entries say.
+    pub all: Option<u32>,
+    /// Of those whose entries do not say.
+    pub assumed: u32,
+}
+
+impl<F: Fn(&[u8]) -> Parsed> EntryParser for F {
     fn parse(&mut self, entry: &[u8]) -> Parsed {
         self(entry)
     }
+
+    fn plain_records(&mut self, records: &[u8], bytes: usize, sizes: Sizes, accesses: &mut Vec<Access>) -> bool {
+        plain(records.chunks_exact(bytes), sizes, accesses, &*self)
+    }
+}
+
+/// The [`plain_records`](EntryParser::plain_records) of what `parse` understands one by one.
+pub(in crate::traces) fn plain<'a>(
+    records: impl ExactSizeIterator<Item = &'a [u8]>,
+    sizes: Sizes,
+    accesses: &mut Vec<Access>,
+    parse: impl Fn(&'a [u8]) -> Parsed,
+) -> bool {
+    accesses.resize(records.len(), Access::read(0, 0, 0));
+    for (access, record) in accesses.iter_mut().zip(records) {
+        let Ok(Some(Reference { kind: EntryKind::Data(kind), address, len })) = parse(record) else { return false };
+        let told = len.unwrap_or(sizes.assumed);
+        let believed = sizes.all.is_some() || told <= LONGEST_ACCESS;
+        let len = sizes.all.unwrap_or(told);
+        if !believed || address > u64::MAX - u64::from(len.max(1) - 1) {
+            return false;
+        }
+        *access = Access { kind, region: 0, len, offset: address };
+    }
+    true
 }
 
 /// What entries are.

@@ -9,7 +9,7 @@ use crate::BadQuestion;
 use crate::fault::bad_input;
 use pm_formats::{BlockReader, MAGIC};
 use pm_registry::Registry;
-use std::io::{BufReader, Read};
+use std::io::BufRead;
 
 /// An input whose nature is known.
 pub enum Opened {
@@ -28,12 +28,11 @@ pub enum Opened {
 /// # Errors
 /// If the input is not of the format asked for, of none that is known, or of several; with the line or record.
 pub fn open(
-    input: impl Read + 'static,
+    input: impl BufRead + 'static,
     reading: &Reading,
     imports: &Registry<dyn TraceImport>,
 ) -> anyhow::Result<Opened> {
-    let input: Bytes = Box::new(BufReader::with_capacity(1 << 17, input));
-    let input = unpack(input)?;
+    let input = unpack(Box::new(input))?;
     // No more than the signature first: a header can be judged before the blocks have come.
     let (head, input) = peek(input, MAGIC.len())?;
     if reading.format.is_none() && (head.starts_with(&MAGIC) || MAGIC.starts_with(&head)) {

@@ -5,7 +5,7 @@ use super::entries::Entries;
 use super::in_blocks::InBlocks;
 use super::part::Fate;
 use super::unpack::Bytes;
-use super::{AssumedSize, EntryKind, Numbered, Reading, Reference, References, TraceImport};
+use super::{AssumedSize, EntryKind, Numbered, Reading, References, Sizes, TraceImport};
 use crate::fault::bad_question;
 use pm_formats::BlockMeta;
 use pm_formats::trace::{Access, AccessKind, Region, TraceSink};
@@ -78,8 +78,8 @@ impl Trace {
     ) -> anyhow::Result<()> {
         let part = self.reading.part;
         sink.block(0, part.warm_up > 0);
-        let mut batch = vec![];
-        while self.replay_batch(&mut batch, sink)? {
+        let (mut batch, mut accesses) = (vec![], vec![]);
+        while self.replay_plain(&mut accesses, sink)? || self.replay_batch(&mut batch, sink)? {
             check(sink)?;
         }
         let uncounted = part.skip.saturating_add(part.warm_up);
@@ -96,9 +96,6 @@ impl Trace {
             return Ok(false);
         }
         let whole = self.reading.part.is_whole();
-        if whole && self.replay_plain(batch, sink) {
-            return Ok(true);
-        }
         let Reading { access_size, address_unit: unit, references, .. } = self.reading;
         let assumed = self.format.assumed_size().unwrap_or(AssumedSize::BYTE);
         // The low bits of an address that say nothing.
@@ -141,23 +138,18 @@ impl Trace {
         Ok(true)
     }
 
-    /// Replays accesses to data at byte addresses, which most are, one like another; false, and none, if some are something else.
-    fn replay_plain(&self, batch: &[Numbered], sink: &mut impl TraceSink) -> bool {
-        let Reading { access_size, address_unit, references, .. } = self.reading;
+    /// The same where all are accesses to data at byte addresses, as most are; false, and none, if not, or if there are no more.
+    fn replay_plain(&mut self, accesses: &mut Vec<Access>, sink: &mut impl TraceSink) -> anyhow::Result<bool> {
+        let Reading { access_size, address_unit, references, part, .. } = &self.reading;
         let assumed = self.format.assumed_size().unwrap_or(AssumedSize::BYTE);
-        if address_unit != 1 || references != References::Data || assumed.aligned {
-            return false;
+        if *address_unit != 1 || *references != References::Data || assumed.aligned || !part.is_whole() {
+            return Ok(false);
         }
-        let len = |reference: &Reference| access_size.or(reference.len).unwrap_or(assumed.bytes);
-        // Arithmetic and no branch: that all is plain is what is expected.
-        let plain = batch.iter().fold(true, |plain, Numbered { reference, .. }| {
-            let within = reference.address <= u64::MAX - u64::from(len(reference).saturating_sub(1));
-            plain & within & matches!(reference.kind, EntryKind::Data(_))
-        });
-        for Numbered { reference, .. } in batch.iter().filter(|_| plain) {
-            let EntryKind::Data(kind) = reference.kind else { return false };
-            sink.access(Access { kind, region: 0, len: len(reference), offset: reference.address });
+        let sizes = Sizes { all: *access_size, assumed: assumed.bytes };
+        let plain = self.entries.plain_batch(sizes, accesses)?;
+        if plain {
+            sink.accesses(accesses);
         }
-        plain
+        Ok(plain)
     }
 }

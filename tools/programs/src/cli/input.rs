@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail};
 use pm_exchange::BadInput;
 use pm_formats::{BlockReader, End, Header, Record, RecordReader, Tally};
 use std::fs::File;
-use std::io::{self, BufRead as _, BufReader, IsTerminal as _, Read};
+use std::io::{self, BufRead, BufReader, IsTerminal as _, Read};
 use std::os::fd::AsFd as _;
 use std::path::Path;
 
@@ -27,16 +27,38 @@ enum Source {
 /// RFC 8878, section 3.1.1: how a zstd frame begins.
 const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
 
+/// What is said when a file cannot be read.
+fn unread(error: io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot read: {error}"))
+}
+
+/// What is said when what it holds cannot be decompressed.
+fn damaged(error: io::Error) -> io::Error {
+    let text = format!("the compressed input (zstd) is damaged or cut: {error}");
+    io::Error::new(io::ErrorKind::InvalidData, BadInput::new(text))
+}
+
 impl Read for Input {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match &mut self.file {
-            Source::Plain(file) => {
-                file.read(buffer).map_err(|error| io::Error::new(error.kind(), format!("cannot read: {error}")))
-            }
-            Source::Zstd(file) => file.read(buffer).map_err(|error| {
-                let text = format!("the compressed input (zstd) is damaged or cut: {error}");
-                io::Error::new(io::ErrorKind::InvalidData, BadInput::new(text))
-            }),
+            Source::Plain(file) => file.read(buffer).map_err(unread),
+            Source::Zstd(file) => file.read(buffer).map_err(damaged),
+        }
+    }
+}
+
+impl BufRead for Input {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        match &mut self.file {
+            Source::Plain(file) => file.fill_buf().map_err(unread),
+            Source::Zstd(file) => file.fill_buf().map_err(damaged),
+        }
+    }
+
+    fn consume(&mut self, bytes: usize) {
+        match &mut self.file {
+            Source::Plain(file) => file.consume(bytes),
+            Source::Zstd(file) => file.consume(bytes),
         }
     }
 }
@@ -45,7 +67,6 @@ impl Input {
     /// The same, decompressed if it is compressed by zstd.
     fn decompressed(self) -> io::Result<Self> {
         let Self { name, file: Source::Plain(mut file) } = self else { return Ok(self) };
-        let unread = |error: io::Error| io::Error::new(error.kind(), format!("cannot read: {error}"));
         let file = if file.fill_buf().map_err(unread)?.starts_with(ZSTD) {
             let decoder = zstd::stream::read::Decoder::with_buffer(file)?;
             Source::Zstd(BufReader::with_capacity(CAPACITY, decoder))

@@ -7,7 +7,6 @@ use anyhow::Context as _;
 use pm_exchange::rows::{self, Imported, RowOptions};
 use pm_exchange::traces::{self, Opened};
 use pm_formats::{Record, Step};
-use std::io::BufReader;
 use std::path::Path;
 
 /// Makes a stream of the rows of the one file there is.
@@ -38,7 +37,7 @@ pub(super) fn import(what: Rows, args: &Args, typed: &Typed) -> anyhow::Result<(
     if what == Rows::Trace {
         return import_trace(path, args, step);
     }
-    let input = BufReader::with_capacity(1 << 18, open_bytes(path)?);
+    let input = open_bytes(path)?;
     match what {
         Rows::Photons => write(rows::photons(input, &options, step).context(name)?, args),
         Rows::Queries => write(rows::queries(input, &options, step).context(name)?, args),

@@ -1,7 +1,8 @@
 //! Many entries at a time: of records none is read by itself.
 
 use super::{Entries, LONGEST_ACCESS};
-use crate::traces::Numbered;
+use crate::traces::{Numbered, Sizes};
+use pm_formats::trace::Access;
 use std::io::{BufRead, ErrorKind};
 
 /// Entries read at once: few enough for them and what they say to stay in a core's own cache.
@@ -23,6 +24,26 @@ impl<R: BufRead> Entries<R> {
             batch.push(Numbered { number: self.number, reference });
         }
         Ok(!batch.is_empty())
+    }
+
+    /// Replaces what is in `accesses` by those of the next records, if all are plain and lie in the input's buffer; false, and
+    /// nothing was read, if not.
+    ///
+    /// # Errors
+    /// What the input reports.
+    pub(in crate::traces) fn plain_batch(&mut self, sizes: Sizes, accesses: &mut Vec<Access>) -> anyhow::Result<bool> {
+        let Some(bytes) = self.bytes else { return Ok(false) };
+        let records = (self.buffered()? / bytes).min(BATCH);
+        if records == 0 {
+            return Ok(false);
+        }
+        let here = &self.input.fill_buf()?[..records * bytes];
+        let plain = self.parser.plain_records(here, bytes, sizes, accesses);
+        if plain {
+            self.number += records as u64;
+            self.input.consume(records * bytes);
+        }
+        Ok(plain)
     }
 
     /// The error that something about an entry is wrong.

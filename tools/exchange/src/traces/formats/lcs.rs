@@ -7,8 +7,10 @@
 //! an object are writes, and one that deletes it accesses nothing. The statistics behind the version tell how many requests
 //! there are, as their second number.
 
+use crate::traces::import::plain;
 use crate::traces::text::size;
-use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, TraceImport};
+use crate::traces::{AssumedSize, EntryKind, EntryParser, EntryShape, Example, Parsed, Reference, Sizes, TraceImport};
+use pm_formats::trace::Access;
 
 pm_registry::registered! {
     /// libCacheSim, with a header: time, object (the address), size, operation, index of the next request
@@ -74,13 +76,13 @@ impl EntryParser for Parser {
 
     fn parse(&mut self, request: &[u8]) -> Parsed {
         self.requests += 1;
-        let (len, operation) = match self.version {
-            1 => (u32_at(request, 12).into(), None),
-            2 => (u32_at(request, 12).into(), Some(request[16])),
-            _ => (u64_at(request, 12), Some(request[20])),
-        };
-        let Some(kind) = operation.map_or(Some(EntryKind::READ), kind) else { return Ok(None) };
-        Ok(Some(Reference { kind, address: u64_at(request, 4), len: Some(size(len)?) }))
+        self.request(request)
+    }
+
+    fn plain_records(&mut self, records: &[u8], bytes: usize, sizes: Sizes, accesses: &mut Vec<Access>) -> bool {
+        let plain = plain(records.chunks_exact(bytes), sizes, accesses, |request| self.request(request));
+        self.requests += if plain { accesses.len() as u64 } else { 0 };
+        plain
     }
 
     fn end(&mut self) -> Result<(), String> {
@@ -89,6 +91,19 @@ impl EntryParser for Parser {
             return Err(format!("{requests} requests, and the header promises {promised}"));
         }
         Ok(())
+    }
+}
+
+impl Parser {
+    /// The request in these bytes.
+    fn request(&self, request: &[u8]) -> Parsed {
+        let (len, operation) = match self.version {
+            1 => (u32_at(request, 12).into(), None),
+            2 => (u32_at(request, 12).into(), Some(request[16])),
+            _ => (u64_at(request, 12), Some(request[20])),
+        };
+        let Some(kind) = operation.map_or(Some(EntryKind::READ), kind) else { return Ok(None) };
+        Ok(Some(Reference { kind, address: u64_at(request, 4), len: Some(size(len)?) }))
     }
 }
 

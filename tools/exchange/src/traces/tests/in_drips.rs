@@ -3,7 +3,7 @@
 use super::{Heard, plain};
 use crate::traces::{Opened, imports};
 use pm_formats::trace::Access;
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 
 /// Gives so many bytes at a time, and is interrupted before each.
 struct Dripping {
@@ -29,6 +29,7 @@ impl Read for Dripping {
 
 fn read(bytes: &[u8], portion: usize) -> Result<Vec<Access>, String> {
     let input = Dripping { bytes: bytes.to_vec(), at: 0, portion, interrupt: false };
+    let input = BufReader::with_capacity(1 << 17, input);
     let opened = crate::traces::open(input, &plain(Some("oracleGeneral")), &imports()).map_err(|e| e.to_string())?;
     let Opened::Foreign(mut trace) = opened else { return Err("ours".into()) };
     let mut heard = Heard::default();
