@@ -2,6 +2,7 @@
 
 mod accesses;
 mod attributes;
+mod changes;
 mod chunk;
 mod place_table;
 mod places;

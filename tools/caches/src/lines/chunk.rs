@@ -1,6 +1,7 @@
 //! The line accesses of a stretch of the trace: records are cut where lines end.
 
-use super::{Accesses, Attributes, CHUNK, LineSpace, Shape};
+use super::changes::{SLACK, pack_changes};
+use super::{Accesses, Attributes, LineSpace, Shape};
 
 /// Which records are already cut into line accesses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,7 +44,7 @@ pub struct LineChunk {
     attribute_mask: usize,
     len: usize,
     /// First and last slot of each record, where all are found before any is taken.
-    ends: Vec<(u32, u32)>,
+    ends: Vec<[u32; 2]>,
     accesses: u64,
     writes: bool,
     /// Where records count once, or somebody wants to know: number of the record of each line access, from 1 on over the
@@ -84,31 +85,24 @@ impl LineChunk {
             self.split_long(space, accesses, resume);
             return true;
         }
-        let kept = self.repeats == Repeats::Kept;
         let short = match accesses.common {
             Some(shape) => {
                 self.writes = shape.attributes().writes();
                 self.attributes.clear();
                 self.attributes.push(shape.attributes());
                 self.attribute_mask = 0;
-                match (kept, accesses.lasts) {
-                    (false, None) => self.pack_alike::<false>(space, accesses, shape),
-                    (true, None) => self.pack_alike::<true>(space, accesses, shape),
-                    (false, Some(_)) => self.pack::<false, false, true>(space, accesses, shape),
-                    (true, Some(_)) => self.pack::<false, true, true>(space, accesses, shape),
-                }
+                self.pack_alike(space, accesses, shape)
             }
             None => {
                 self.writes = accesses.shapes.iter().fold(false, |any, shape| any | shape.attributes().writes());
                 let least = 2 * accesses.shapes.len();
                 self.attributes.resize(self.attributes.len().max(least), Attributes::default());
                 self.attribute_mask = usize::MAX;
-                let common = Shape::default();
-                match (kept, accesses.lasts) {
-                    (false, None) => self.pack::<true, false, false>(space, accesses, common),
-                    (true, None) => self.pack::<true, true, false>(space, accesses, common),
-                    (false, Some(_)) => self.pack::<true, false, true>(space, accesses, common),
-                    (true, Some(_)) => self.pack::<true, true, true>(space, accesses, common),
+                match (self.repeats, accesses.lasts) {
+                    (Repeats::LeftOut, None) => self.pack::<false, false>(space, accesses),
+                    (Repeats::Kept, None) => self.pack::<true, false>(space, accesses),
+                    (Repeats::LeftOut, Some(_)) => self.pack::<false, true>(space, accesses),
+                    (Repeats::Kept, Some(_)) => self.pack::<true, true>(space, accesses),
                 }
             }
         };
@@ -120,22 +114,16 @@ impl LineChunk {
         true
     }
 
-    /// The line accesses of all records, whose shapes are `MIXED` or all `common`, repeats among them if they are `KEPT`, and
-    /// whose last bytes lie elsewhere than the first if they are `PLACED`; false if one spans more than two lines.
-    fn pack<const MIXED: bool, const KEPT: bool, const PLACED: bool>(
-        &mut self,
-        space: &LineSpace,
-        accesses: &Accesses,
-        common: Shape,
-    ) -> bool {
+    /// The line accesses of records of several shapes, repeats among them if they are `KEPT`, and whose last bytes lie elsewhere than
+    /// the first if they are `PLACED`; false if one spans more than two lines.
+    fn pack<const KEPT: bool, const PLACED: bool>(&mut self, space: &LineSpace, accesses: &Accesses) -> bool {
         let records = accesses.shapes.len();
         self.slots.resize(self.slots.len().max(2 * records), 0);
         let slots = &mut self.slots[..2 * records];
         let of_slots = &mut self.attributes[..];
-        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, common.attributes()), 0, 0);
+        let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, Attributes::default()), 0, 0);
         let lasts = accesses.lasts.unwrap_or(accesses.offsets);
         for ((&offset, &last), &shape) in accesses.offsets.iter().zip(lasts).zip(accesses.shapes) {
-            let shape = if MIXED { shape } else { common };
             let attributes = shape.attributes();
             let (first, last, more) = if PLACED {
                 let (first, last) = ((offset >> space.shift) as u32, (last >> space.shift) as u32);
@@ -148,14 +136,10 @@ impl LineChunk {
             // Which line accesses there are depends on the data, so it is arithmetic and not a branch: each is written
             // where the next one goes, and the place is taken or not.
             slots[len] = first;
-            if MIXED {
-                of_slots[len] = attributes;
-            }
-            len += usize::from(KEPT || first != before.0 || (MIXED && attributes != before.1));
+            of_slots[len] = attributes;
+            len += usize::from(KEPT || first != before.0 || attributes != before.1);
             slots[len] = last;
-            if MIXED {
-                of_slots[len] = attributes;
-            }
+            of_slots[len] = attributes;
             len += usize::from(last != first);
             before = (last, attributes);
             extra += u64::from(more);
@@ -165,42 +149,52 @@ impl LineChunk {
         most <= 1
     }
 
-    /// The line accesses of records that are all of this shape, repeats among them if they are `KEPT`; false if one spans more
-    /// than two lines. First all ends are found, side by side, then those are kept that count.
-    fn pack_alike<const KEPT: bool>(&mut self, space: &LineSpace, accesses: &Accesses, shape: Shape) -> bool {
-        let numbering = space.regions[shape.attributes().region()];
+    /// The line accesses of records that are all of this shape, repeats among them if they are kept; false if one spans more than two
+    /// lines. First all ends are found, side by side, then those are kept that count.
+    fn pack_alike(&mut self, space: &LineSpace, accesses: &Accesses, shape: Shape) -> bool {
         let records = accesses.offsets.len();
-        self.ends.resize(self.ends.len().max(records), (0, 0));
+        self.ends.resize(self.ends.len().max(records), [0; 2]);
         let ends = &mut self.ends[..records];
-        numbering.ends_of(space.shift, accesses.offsets, shape.len() & space.len_mask, ends);
         let (mut spans, mut extra) = (0, 0_u32);
-        for &(first, last) in &*ends {
-            let more = last.wrapping_sub(first);
-            spans |= more;
-            extra = extra.wrapping_add(more);
+        match accesses.lasts {
+            None => {
+                let numbering = space.regions[shape.attributes().region()];
+                numbering.ends_of(space.shift, accesses.offsets, shape.len() & space.len_mask, ends);
+                for [first, last] in &*ends {
+                    let more = last.wrapping_sub(*first);
+                    spans |= more;
+                    extra = extra.wrapping_add(more);
+                }
+            }
+            Some(lasts) => {
+                for (ends, (&offset, &last)) in ends.iter_mut().zip(accesses.offsets.iter().zip(lasts)) {
+                    *ends = [(offset >> space.shift) as u32, (last >> space.shift) as u32];
+                    let more = space.more_lines(offset, shape.len());
+                    spans |= more;
+                    extra = extra.wrapping_add(more);
+                }
+            }
         }
         if spans > 1 {
             return false;
         }
-        let (mut before, mut from) = (NO_SLOT, 0);
-        for ends in ends.chunks(CHUNK / 2) {
-            if self.slots.len() - from < CHUNK {
-                self.slots.resize(from + CHUNK, 0);
+        self.slots.resize(self.slots.len().max(2 * records + SLACK), 0);
+        self.len = match self.repeats {
+            Repeats::LeftOut => pack_changes(ends.as_flattened(), NO_SLOT, &mut self.slots),
+            // Of a record only the second line may be the same as the one before.
+            Repeats::Kept => {
+                let slots = &mut self.slots[..2 * records];
+                let mut len = 0;
+                for &[first, last] in &*ends {
+                    slots[len] = first;
+                    len += 1;
+                    slots[len] = last;
+                    len += usize::from(last != first);
+                }
+                len
             }
-            // What is written there is written where the next one goes, and the place is taken or not, as in `pack`. As many as
-            // that have room for sure, which spares a look for each.
-            let slots: &mut [u32; CHUNK] = (&mut self.slots[from..from + CHUNK]).try_into().expect("so many");
-            let mut len = 0;
-            for &(first, last) in ends {
-                slots[len % CHUNK] = first;
-                len += usize::from(KEPT || first != before);
-                slots[len % CHUNK] = last;
-                len += usize::from(last != first);
-                before = last;
-            }
-            from += len;
-        }
-        (self.len, self.accesses) = (from, records as u64 + u64::from(extra));
+        };
+        self.accesses = records as u64 + u64::from(extra);
         true
     }
 

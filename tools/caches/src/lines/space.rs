@@ -40,17 +40,17 @@ impl Numbering {
     /// Calls `tell` with the slots of the first and the last line of each record of this length at one of these offsets within the
     /// region, as [`ends`](Self::ends) finds them. Many at a time, in 32 bits where they suffice.
     #[inline]
-    pub(super) fn ends_of(self, shift: u32, offsets: &[u64], len: u32, ends: &mut [(u32, u32)]) {
+    pub(super) fn ends_of(self, shift: u32, offsets: &[u64], len: u32, ends: &mut [[u32; 2]]) {
         let in_line = self.base & ((1 << shift) - 1);
         let more = len.max(1) - 1;
         if self.size.saturating_add(in_line).saturating_add(u64::from(more)) > u64::from(u32::MAX) {
-            ends.iter_mut().zip(offsets).for_each(|(ends, &offset)| *ends = self.ends(shift, offset, len));
+            ends.iter_mut().zip(offsets).for_each(|(ends, &offset)| *ends = self.ends(shift, offset, len).into());
             return;
         }
         let (in_line, slot) = (in_line as u32, (self.base >> shift).wrapping_sub(self.delta) as u32);
         for (ends, &offset) in ends.iter_mut().zip(offsets) {
             let first = in_line.wrapping_add(offset as u32);
-            *ends = ((first >> shift).wrapping_add(slot), (first.wrapping_add(more) >> shift).wrapping_add(slot));
+            *ends = [(first >> shift).wrapping_add(slot), (first.wrapping_add(more) >> shift).wrapping_add(slot)];
         }
     }
 

@@ -120,13 +120,13 @@ fn ends_found_many_at_a_time_are_those_found_one_by_one() {
                 for len in [0, 1, 20, 300] {
                     let most = size.saturating_sub(u64::from(len));
                     let offsets: Vec<u64> = (0..9).map(|i| most / 8 * i).chain([most]).collect();
-                    let mut ends = vec![(0, 0); offsets.len()];
+                    let mut ends = vec![[0; 2]; offsets.len()];
                     space.regions[0].ends_of(space.shift, &offsets, len, &mut ends);
                     for (&found, &offset) in ends.iter().zip(&offsets) {
                         if offset + u64::from(len.max(1)) <= size {
                             assert_eq!(
                                 found,
-                                space.regions[0].ends(space.shift, offset, len),
+                                <[u32; 2]>::from(space.regions[0].ends(space.shift, offset, len)),
                                 "{base} {size} {line} {len}"
                             );
                         }
