@@ -10,7 +10,7 @@ mod space;
 
 pub(crate) use accesses::{AccessBuffer, Accesses, CHUNK};
 pub use attributes::Attributes;
-pub(crate) use attributes::Shape;
+pub(crate) use attributes::{Shape, Shapes};
 pub use chunk::LineChunk;
 pub(crate) use chunk::{Repeats, Resume};
 pub(crate) use places::{PAGE_SHIFT, Places};

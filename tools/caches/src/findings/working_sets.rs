@@ -1,7 +1,7 @@
 //! Working sets: how many distinct lines a search touches, and how many a batch.
 
 use super::Distribution;
-use crate::lines::{Accesses, LineSpace};
+use crate::lines::{Accesses, LineSpace, Shapes};
 
 /// Where a search that counts begins among the accesses that wait.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl WorkingSetCounter {
             self.begin(start.batch);
             from = start.at;
         }
-        self.touch(space, accesses, from..accesses.shapes.len());
+        self.touch(space, accesses, from..accesses.len());
     }
 
     fn begin(&mut self, batch: u64) {
@@ -90,13 +90,15 @@ impl WorkingSetCounter {
         if self.search.number == 0 {
             return;
         }
-        let records = accesses.offsets[range.clone()].iter().zip(&accesses.shapes[range]);
-        match accesses.common {
-            Some(shape) => {
+        let offsets = accesses.offsets[range.clone()].iter();
+        match accesses.shapes {
+            Shapes::Alike(shape) => {
                 let ends = space.ends_of(shape);
-                records.for_each(|(&offset, _)| self.touch_lines(ends(offset)));
+                offsets.for_each(|&offset| self.touch_lines(ends(offset)));
             }
-            None => records.for_each(|(&offset, &shape)| self.touch_lines(space.ends(offset, shape))),
+            Shapes::Each(shapes) => {
+                offsets.zip(&shapes[range]).for_each(|(&offset, &shape)| self.touch_lines(space.ends(offset, shape)));
+            }
         }
     }
 

@@ -62,10 +62,32 @@ impl Shape {
     pub(super) fn of_len(self, len: u32) -> Self {
         Self(self.0 >> 32 << 32 | u64::from(len))
     }
+}
 
-    /// Bits in which two shapes differ.
+/// The shapes of some accesses. Most stretches of most traces have only one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shapes<'a> {
+    /// That of all.
+    Alike(Shape),
+    /// That of each.
+    Each(&'a [Shape]),
+}
+
+impl Shapes<'_> {
+    /// That of the access at an index.
     #[inline]
-    pub(super) fn difference(self, other: Self) -> u64 {
-        self.0 ^ other.0
+    pub(crate) fn at(self, index: usize) -> Shape {
+        match self {
+            Self::Alike(shape) => shape,
+            Self::Each(shapes) => shapes[index],
+        }
+    }
+
+    /// Whether any of them writes.
+    pub(super) fn write(self) -> bool {
+        match self {
+            Self::Alike(shape) => shape.attributes().writes(),
+            Self::Each(shapes) => shapes.iter().fold(false, |any, shape| any | shape.attributes().writes()),
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The line accesses of a stretch of the trace: records are cut where lines end.
 
 use super::changes::{SLACK, pack_changes};
-use super::{Accesses, Attributes, LineSpace, Shape};
+use super::{Accesses, Attributes, LineSpace, Shape, Shapes};
 
 /// Which records are already cut into line accesses.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,38 +76,37 @@ impl LineChunk {
     /// Replaces the content by the line accesses of `accesses` from `resume` on, and moves that on: past all records unless
     /// some are so long that they would make a chunk without bounds. False if no records are left.
     pub(crate) fn split(&mut self, space: &LineSpace, accesses: &Accesses, resume: &mut Resume) -> bool {
-        if resume.records == accesses.shapes.len() {
+        if resume.records == accesses.len() {
             return false;
         }
         if space.counts_records() || self.numbered {
             // Which line access belongs to which record is known there.
-            self.writes = accesses.shapes.iter().any(|shape| shape.attributes().writes());
+            self.writes = accesses.shapes.write();
             self.split_long(space, accesses, resume);
             return true;
         }
-        let short = match accesses.common {
-            Some(shape) => {
-                self.writes = shape.attributes().writes();
+        self.writes = accesses.shapes.write();
+        let short = match accesses.shapes {
+            Shapes::Alike(shape) => {
                 self.attributes.clear();
                 self.attributes.push(shape.attributes());
                 self.attribute_mask = 0;
                 self.pack_alike(space, accesses, shape)
             }
-            None => {
-                self.writes = accesses.shapes.iter().fold(false, |any, shape| any | shape.attributes().writes());
-                let least = 2 * accesses.shapes.len();
+            Shapes::Each(shapes) => {
+                let least = 2 * shapes.len();
                 self.attributes.resize(self.attributes.len().max(least), Attributes::default());
                 self.attribute_mask = usize::MAX;
                 match (self.repeats, accesses.lasts) {
-                    (Repeats::LeftOut, None) => self.pack::<false, false>(space, accesses),
-                    (Repeats::Kept, None) => self.pack::<true, false>(space, accesses),
-                    (Repeats::LeftOut, Some(_)) => self.pack::<false, true>(space, accesses),
-                    (Repeats::Kept, Some(_)) => self.pack::<true, true>(space, accesses),
+                    (Repeats::LeftOut, None) => self.pack::<false, false>(space, accesses, shapes),
+                    (Repeats::Kept, None) => self.pack::<true, false>(space, accesses, shapes),
+                    (Repeats::LeftOut, Some(_)) => self.pack::<false, true>(space, accesses, shapes),
+                    (Repeats::Kept, Some(_)) => self.pack::<true, true>(space, accesses, shapes),
                 }
             }
         };
         if short {
-            resume.records = accesses.shapes.len();
+            resume.records = accesses.len();
         } else {
             self.split_long(space, accesses, resume);
         }
@@ -116,14 +115,19 @@ impl LineChunk {
 
     /// The line accesses of records of several shapes, repeats among them if they are `KEPT`, and whose last bytes lie elsewhere than
     /// the first if they are `PLACED`; false if one spans more than two lines.
-    fn pack<const KEPT: bool, const PLACED: bool>(&mut self, space: &LineSpace, accesses: &Accesses) -> bool {
-        let records = accesses.shapes.len();
+    fn pack<const KEPT: bool, const PLACED: bool>(
+        &mut self,
+        space: &LineSpace,
+        accesses: &Accesses,
+        shapes: &[Shape],
+    ) -> bool {
+        let records = shapes.len();
         self.slots.resize(self.slots.len().max(2 * records), 0);
         let slots = &mut self.slots[..2 * records];
         let of_slots = &mut self.attributes[..];
         let (mut len, mut before, mut extra, mut most) = (0, (NO_SLOT, Attributes::default()), 0, 0);
         let lasts = accesses.lasts.unwrap_or(accesses.offsets);
-        for ((&offset, &last), &shape) in accesses.offsets.iter().zip(lasts).zip(accesses.shapes) {
+        for ((&offset, &last), &shape) in accesses.offsets.iter().zip(lasts).zip(shapes) {
             let attributes = shape.attributes();
             let (first, last, more) = if PLACED {
                 let (first, last) = ((offset >> space.shift) as u32, (last >> space.shift) as u32);
@@ -206,9 +210,9 @@ impl LineChunk {
         self.records.clear();
         self.attribute_mask = usize::MAX;
         let before = self.record;
-        while resume.records < accesses.shapes.len() && self.slots.len() < LONG_CHUNK {
+        while resume.records < accesses.len() && self.slots.len() < LONG_CHUNK {
             let at = resume.records;
-            let (shape, attributes) = (accesses.shapes[at], accesses.shapes[at].attributes());
+            let (shape, attributes) = (accesses.shapes.at(at), accesses.shapes.at(at).attributes());
             let (first, last, more) = match accesses.lasts {
                 Some(lasts) => {
                     let slot = |place: u64| (place >> space.shift) as u32;

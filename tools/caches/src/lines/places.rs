@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::place_table::{GOLDEN, PlaceTable};
-use super::{Accesses, Shape};
+use super::{Accesses, Shape, Shapes};
 use crate::SpanRule;
 
 /// log2 of the bytes of a page, if no line is longer: those that keep regions apart.
@@ -67,24 +67,45 @@ impl Places {
     /// # Panics
     /// If an access goes on beyond the last address, or somebody keeps the [`pages`](Self::pages).
     pub(crate) fn take(&mut self, accesses: &Accesses, span: SpanRule) {
-        let (shift, low) = (self.shift, (1 << self.shift) - 1);
-        let number = accesses.offsets.len();
+        let low = (1 << self.shift) - 1;
+        let number = accesses.len();
         self.firsts.resize(self.firsts.len().max(number), 0);
         self.lasts.resize(self.firsts.len(), 0);
         self.taken = number;
         self.pieces.clear();
         let all = if span == SpanRule::First { 0 } else { u64::MAX };
-        let mut longest = 0;
         // Out of the way of the table, so that where they lie is known for the whole pass.
         let (mut firsts, mut lasts) = (std::mem::take(&mut self.firsts), std::mem::take(&mut self.lasts));
         self.unknown.clear();
-        let taken = firsts.iter_mut().zip(&mut lasts);
-        for (i, ((&offset, shape), (to_first, to_last))) in
-            accesses.offsets.iter().zip(accesses.shapes).zip(taken).enumerate()
-        {
+        let longest = match accesses.shapes {
+            Shapes::Alike(shape) => self.look(accesses.offsets, |_| shape, span, &mut firsts, &mut lasts),
+            Shapes::Each(shapes) => self.look(accesses.offsets, |i| shapes[i], span, &mut firsts, &mut lasts),
+        };
+        self.find(accesses, all, &mut firsts, &mut lasts);
+        (self.firsts, self.lasts) = (firsts, lasts);
+        // Further pages than two have to be there too.
+        if longest > low {
+            self.cut(accesses, span);
+        }
+    }
+
+    /// Finds the places of the pages that are remembered, and of second pages; how many bytes the longest access has that has one.
+    #[inline]
+    fn look(
+        &mut self,
+        offsets: &[u64],
+        shape: impl Fn(usize) -> Shape,
+        span: SpanRule,
+        firsts: &mut [u64],
+        lasts: &mut [u64],
+    ) -> u64 {
+        let (shift, low) = (self.shift, (1 << self.shift) - 1);
+        let all = if span == SpanRule::First { 0 } else { u64::MAX };
+        let mut longest = 0;
+        for (i, (&offset, (to_first, to_last))) in offsets.iter().zip(firsts.iter_mut().zip(lasts)).enumerate() {
             let page = offset >> shift;
             let (known, place) = self.recent[recent(page)];
-            let more = u64::from(shape.len().max(1) - 1);
+            let more = u64::from(shape(i).len().max(1) - 1);
             *to_first = u64::from(place) << shift | (offset & low);
             *to_last = *to_first + (more & all);
             if known != page {
@@ -99,12 +120,7 @@ impl Places {
                 }
             }
         }
-        self.find(accesses, all, &mut firsts, &mut lasts);
-        (self.firsts, self.lasts) = (firsts, lasts);
-        // Further pages than two have to be there too.
-        if longest > low {
-            self.cut(accesses, span);
-        }
+        longest
     }
 
     /// Mends the places of the unknown pages of accesses. Where pages are far apart, each look at the table waits for memory: so
@@ -123,7 +139,7 @@ impl Places {
                 _ => self.place(page),
             };
             firsts[i] = u64::from(place) << shift | in_page;
-            let more = u64::from(accesses.shapes[i].len().max(1) - 1) & all;
+            let more = u64::from(accesses.shapes.at(i).len().max(1) - 1) & all;
             // What ends in another page knows that page's place.
             if in_page + more <= low {
                 lasts[i] = firsts[i] + more;
@@ -139,7 +155,8 @@ impl Places {
         self.firsts.clear();
         self.lasts.clear();
         self.further.clear();
-        for (&offset, &shape) in accesses.offsets.iter().zip(accesses.shapes) {
+        for (i, &offset) in accesses.offsets.iter().enumerate() {
+            let shape = accesses.shapes.at(i);
             let last = offset + u64::from(shape.len().max(1) - 1);
             for page in offset >> shift..=last >> shift {
                 let place = u64::from(self.place(page)) << shift;
@@ -161,7 +178,7 @@ impl Places {
         let (offsets, lasts) = (&self.firsts[..self.taken], Some(&self.lasts[..self.taken]));
         match self.pieces.is_empty() {
             true => Accesses { offsets, lasts, ..*taken },
-            false => Accesses { offsets, lasts, further: Some(&self.further), shapes: &self.pieces, common: None },
+            false => Accesses { offsets, lasts, further: Some(&self.further), shapes: Shapes::Each(&self.pieces) },
         }
     }
 

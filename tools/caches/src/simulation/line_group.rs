@@ -182,7 +182,7 @@ impl LineGroup {
         if let Some(waiting) = waiting {
             let caches = self.models.iter_mut().flat_map(|running| &mut running.caches);
             for chains in caches.filter_map(|cache| cache.chains.as_mut()) {
-                chains.run(waiting, first, accesses.shapes.len(), counted);
+                chains.run(waiting, first, accesses.len(), counted);
             }
         }
     }
