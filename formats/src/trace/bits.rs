@@ -56,7 +56,10 @@ impl<'a> BitReader<'a> {
         Some(bit)
     }
 
-    /// The next bits, 57 or more of them; behind the end, zeros.
+    /// The least number of bits that are [`ahead`](Self::ahead).
+    pub(super) const AHEAD: usize = 57;
+
+    /// The next bits, [`AHEAD`](Self::AHEAD) or more of them; behind the end, zeros.
     #[inline(always)]
     pub(super) fn ahead(&self) -> u64 {
         let behind = self.bytes.get(self.position >> 3..).unwrap_or_default();

@@ -97,13 +97,23 @@ pub(super) fn decode(
             depth += 1;
             node = first;
         }
-        bits.skip((depth - above) as u32);
-        match 4 * node + 3 <= nodes {
-            true => bits.skip(visits.push_lowest(node, bits.ahead() as u32)),
-            false => visits.push_below(node, nodes, bits),
+        let mut looked_at = depth - above;
+        if 4 * node + 3 <= nodes {
+            let bits = visits.push_lowest(node, ahead);
+            ahead >>= bits;
+            looked_at += bits;
         }
+        // Most often all bits that the way back up may have are there.
+        if 4 * node + 3 > nodes || looked_at + depth > BitReader::AHEAD {
+            bits.skip(looked_at as u32);
+            if 4 * node + 3 > nodes {
+                visits.push_below(node, nodes, bits);
+            }
+            (ahead, looked_at) = (bits.ahead(), 0);
+        }
+        bits.skip(looked_at as u32);
         // Back up, until a second child is visited too.
-        let undecided = bits.ahead().trailing_zeros() as usize;
+        let undecided = ahead.trailing_zeros() as usize;
         if undecided >= depth {
             bits.skip(depth as u32);
             tell(&visits.told[..visits.len]);
@@ -114,6 +124,70 @@ pub(super) fn decode(
         node = others[depth % MAX_DEPTH];
     }
 }
+
+/// A walk through three levels of a tree, from a node with four grandchildren and no further descendants.
+#[derive(Clone, Copy)]
+struct Lowest {
+    /// By visit: all bits set if it is of a child, whose number is twice the node's and more.
+    children: [u32; Self::MOST],
+    /// The same of grandchildren, four times the node's and more.
+    grandchildren: [u32; Self::MOST],
+    /// What is more, less one.
+    more: [u32; Self::MOST],
+    visits: u32,
+    bits: u32,
+}
+
+impl Lowest {
+    /// Visits, and one for room: as many as two vectors hold.
+    const MOST: usize = 8;
+    /// The bits that decide: which child comes first; which grandchild by it, and whether the other too; whether the other child too;
+    /// and of that the same two.
+    const BITS: usize = 6;
+
+    /// The walk that these bits decide, and those above them that are none of its own.
+    const fn new(ahead: usize) -> Self {
+        let empty = [0; Self::MOST];
+        let mut walk = Self { children: empty, grandchildren: empty, more: [u32::MAX; Self::MOST], visits: 1, bits: 4 };
+        let first = bit_of(ahead, 0);
+        walk.visit_child(first, bit_of(ahead, 1), bit_of(ahead, 2));
+        if bit_of(ahead, 3) == 1 {
+            walk.bits += 2;
+            walk.visit_child(first ^ 1, bit_of(ahead, 4), bit_of(ahead, 5));
+        }
+        walk
+    }
+
+    const fn visit_child(&mut self, child: u32, first: u32, both: u32) {
+        let at = self.visits as usize;
+        self.children[at] = u32::MAX;
+        self.more[at] = child.wrapping_sub(1);
+        self.visits += 2 + both;
+        let mut grandchild = 0;
+        while grandchild <= both {
+            let at = at + 1 + grandchild as usize;
+            self.grandchildren[at] = u32::MAX;
+            self.more[at] = (2 * child + (first ^ grandchild)).wrapping_sub(1);
+            grandchild += 1;
+        }
+    }
+}
+
+/// A bit of a number.
+const fn bit_of(number: usize, at: usize) -> u32 {
+    (number >> at & 1) as u32
+}
+
+/// By the bits that come next.
+static LOWEST: [Lowest; 1 << Lowest::BITS] = {
+    let mut walks = [Lowest::new(0); 1 << Lowest::BITS];
+    let mut ahead = 0;
+    while ahead < walks.len() {
+        walks[ahead] = Lowest::new(ahead);
+        ahead += 1;
+    }
+    walks
+};
 
 /// Visits that are not yet told of: room for them, which serves one walk after the other.
 pub(super) struct Visits {
@@ -144,25 +218,19 @@ impl Visits {
         self.len += 1;
     }
 
-    /// Adds the visits below and of a node that has four grandchildren and no more, and says how many bits they were. Visits
-    /// that are not made are written as well, where the next one goes.
+    /// Adds the visits below and of a node that has four grandchildren and no more, and says how many bits they were. Eight are
+    /// written always, and those that are made count.
     #[inline]
-    fn push_lowest(&mut self, node: u32, ahead: u32) -> u32 {
-        let bit = |at: u32| ahead >> at & 1;
-        let both = bit(3);
-        let child = 2 * node + bit(0);
-        let mut write = |at: usize, node: u32| self.told[(self.len + at) % Self::ROOM] = node - 1;
-        write(0, node);
-        write(1, child);
-        write(2, 2 * child + bit(1));
-        write(3, 2 * child + (bit(1) ^ 1));
-        let of_first = 3 + bit(2) as usize;
-        let child = child ^ 1;
-        write(of_first, child);
-        write(of_first + 1, 2 * child + bit(4));
-        write(of_first + 2, 2 * child + (bit(4) ^ 1));
-        self.len += of_first + (both * (2 + bit(5))) as usize;
-        4 + 2 * both
+    fn push_lowest(&mut self, node: u32, ahead: u64) -> usize {
+        let walk = &LOWEST[ahead as usize % LOWEST.len()];
+        let told: &mut [u32; Lowest::MOST] =
+            self.told[self.len..].first_chunk_mut().expect("make_room was asked for a step's room");
+        for (i, visit) in told.iter_mut().enumerate() {
+            let number = node + (node & walk.children[i]) + (3 * node & walk.grandchildren[i]);
+            *visit = number.wrapping_add(walk.more[i]);
+        }
+        self.len += walk.visits as usize;
+        walk.bits as usize
     }
 
     /// The same of any node that has no further descendants.
