@@ -226,7 +226,7 @@ impl Visits {
         let told: &mut [u32; Lowest::MOST] =
             self.told[self.len..].first_chunk_mut().expect("make_room was asked for a step's room");
         for (i, visit) in told.iter_mut().enumerate() {
-            let number = node + (node & walk.children[i]) + (3 * node & walk.grandchildren[i]);
+            let number = node + (node & walk.children[i]) + ((3 * node) & walk.grandchildren[i]);
             *visit = number.wrapping_add(walk.more[i]);
         }
         self.len += walk.visits as usize;
