@@ -2,15 +2,13 @@
 
 mod batch;
 
+use super::reference::LONGEST_ACCESS;
 use super::{EntryParser, EntryShape, Reference, text};
 use crate::fault::bad_input;
 use std::io::{BufRead, ErrorKind, Read as _};
 
 /// Longest line, in bytes: a file without line ends is no text.
 pub(super) const LONGEST_LINE: u64 = 1 << 16;
-
-/// Longest access that an entry may tell of, in bytes: whoever reads a format as another meets longer ones soon.
-pub(super) const LONGEST_ACCESS: u32 = pm_formats::trace::MAX_ACCESS;
 
 /// Reads entries and knows which it is at.
 pub(super) struct Entries<R> {

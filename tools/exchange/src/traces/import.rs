@@ -1,6 +1,6 @@
 //! What a format of traces is to those who read it.
 
-use super::entries::LONGEST_ACCESS;
+use super::reference::LONGEST_ACCESS;
 use super::{EntryKind, Numbered, Parsed, Reference};
 use crate::BadQuestion;
 use pm_formats::trace::Access;

@@ -2,6 +2,9 @@
 
 use pm_formats::trace::AccessKind;
 
+/// Longest access that an entry may tell of, in bytes: whoever reads a format as another meets longer ones soon.
+pub(super) const LONGEST_ACCESS: u32 = pm_formats::trace::MAX_ACCESS;
+
 /// What an entry does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {

@@ -1,6 +1,7 @@
 //! Many entries at a time: of records none is read by itself.
 
-use super::{Entries, LONGEST_ACCESS};
+use super::Entries;
+use crate::traces::reference::LONGEST_ACCESS;
 use crate::traces::{Numbered, Sizes};
 use pm_formats::trace::Access;
 use std::io::{BufRead, ErrorKind};
