@@ -5,7 +5,9 @@
 /// A contribution is rounded once, to a multiple of a unit that is fixed beforehand, and integers are added.
 pub struct Film {
     sums: Vec<[i128; 3]>,
+    /// A power of two, and so is how many make up 1.
     unit: f64,
+    units_in_one: f64,
 }
 
 /// A pixel's sum, or a contribution to it, does not fit: the light is some 2^60 times what the scene's power and size
@@ -25,16 +27,18 @@ impl Film {
         let scale = if scale.is_normal() && scale > 0.0 { scale.clamp(1e-200, 1e200) } else { 1.0 };
         // The power of two at or below: the bits without the mantissa.
         let power = f64::from_bits(scale.to_bits() & !0x000f_ffff_ffff_ffff);
-        Self { sums: vec![[0; 3]; pixels], unit: power / 2f64.powi(64) }
+        let unit = power / 2f64.powi(64);
+        Self { sums: vec![[0; 3]; pixels], unit, units_in_one: 1.0 / unit }
     }
 
     /// A contribution in units of the film, or `None` if it is beyond 2^124 of them or not a number.
     #[inline]
     #[must_use]
     pub fn quantise(&self, value: [f64; 3]) -> Option<[i128; 3]> {
-        let units = value.map(|x| round(x / self.unit));
+        // Powers of two: the product is rounded as the quotient is.
+        let units = value.map(|x| x * self.units_in_one);
         // Also false for NaN.
-        units.iter().all(|x| x.abs() < 2f64.powi(124)).then(|| units.map(whole))
+        units.iter().all(|x| x.abs() < 2f64.powi(124)).then(|| units.map(round))
     }
 
     /// Adds a quantised contribution to a pixel.
@@ -58,17 +62,21 @@ impl Film {
     }
 }
 
-/// Rounded; beyond 2^52 there is nothing to round.
+/// A number below 2^124, rounded, halves away from 0. Beyond 2^52 there is nothing to round, and most are below: then this
+/// takes a few instructions, where `f64::round` is a function of its own on processors of old.
 #[inline]
-fn round(x: f64) -> f64 {
-    if x.abs() < 2f64.powi(52) { x.round() } else { x }
-}
-
-/// A number without a fraction, below 2^124. Most are shorter than the integers that processors know.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "checked against 2^124")]
-fn whole(x: f64) -> i128 {
-    if x.abs() < 2f64.powi(62) { i128::from(x as i64) } else { x as i128 }
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "checked against 2^124, and below 2^52"
+)]
+fn round(x: f64) -> i128 {
+    if x.abs() >= 2f64.powi(52) {
+        return x as i128;
+    }
+    let whole = x as i64;
+    let rest = x - whole as f64;
+    i128::from(whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5))
 }
 
 #[cfg(test)]
@@ -92,6 +100,21 @@ mod tests {
             assert_eq!(forth, expose(&mut values.iter().rev()));
             let sum: f64 = values.iter().map(|value| value[0]).sum();
             assert!((f64::from(forth[0]) / sum - 1.0).abs() < 1e-6, "{scale}: {forth:?} {sum}");
+        }
+    }
+
+    #[test]
+    fn contributions_are_rounded_to_the_nearest_unit_and_halves_away_from_nothing() {
+        let film = Film::new(1, 1.0);
+        let mut random = Random::new(&[4]);
+        let some = (0..10_000).map(|_| (f64::from(random.unit()) - 0.5) * 2f64.powi((random.unit() * 120.0) as i32));
+        let least = 0.5 - f64::EPSILON / 4.0;
+        let edges = [0.0, -0.0, 0.5, least, 1.5, 2.5, 2f64.powi(52) - 0.5, 2f64.powi(52), 2f64.powi(63), 1e-320];
+        for units in some.chain(edges) {
+            for units in [units, -units] {
+                let quantised = film.quantise([units * 2f64.powi(-64); 3]).unwrap();
+                assert_eq!(quantised, [units.round() as i128; 3], "{units}");
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 
 mod placed;
 mod plain;
+mod shorts;
 mod spread;
 mod sum;
 

@@ -198,15 +198,15 @@ impl Nearest {
         self.keys.iter().map(|&key| (distance_of(key), id_of(key))).chain(self.room.chosen.iter())
     }
 
-    /// Calls `visit` with the place of each photon found.
+    /// Calls `visit` with the places of the photons found, many at once.
     #[inline(always)]
-    pub fn for_each_place(&self, mut visit: impl FnMut(u32)) {
-        for &key in &self.keys {
-            visit(id_of(key));
+    pub fn for_places(&self, mut visit: impl FnMut(&[u32])) {
+        for keys in self.keys.chunks(64) {
+            let mut places = [0; 64];
+            places.iter_mut().zip(keys).for_each(|(place, &key)| *place = id_of(key));
+            visit(&places[..keys.len()]);
         }
-        for &place in &self.room.chosen.places[..self.room.chosen.len] {
-            visit(place);
-        }
+        visit(&self.room.chosen.places[..self.room.chosen.len]);
     }
 
     /// Ids of the photons by their places, if a map found them that has an order of its own.

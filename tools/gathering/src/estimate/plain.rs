@@ -3,7 +3,7 @@
 //! Their powers are mantissas of 8 bits times powers of two, which add up exactly, in any order, as integers.
 
 use super::super::lobe;
-use super::placed::{Short, Sums};
+use super::shorts::{Short, Sum};
 use super::{Edges, Kernel, RadianceEstimate, Rim, on_same_surface};
 use pm_formats::Material;
 use pm_maps::Nearest;
@@ -24,33 +24,32 @@ impl RadianceEstimate<'_> {
             return None;
         }
         let sums = self.sum_of_short(normal, found)?;
-        let sums = sums.without(rim.place.map(|place| self.placed.short(place)));
+        let sums = sums.without(rim.place.and_then(|place| self.placed.short(place)));
         let reflected =
-            [0, 1, 2].map(|channel| f64::from(sums[channel]) * unit * (f64::from(material.diffuse[channel]) / PI));
+            [0, 1, 2].map(|channel| sums[channel] as f64 * unit * (f64::from(material.diffuse[channel]) / PI));
         Some((reflected, rim.radius_squared * Kernel::Constant.disc()))
     }
 
     /// Powers of the photons found, if all lie on the surface with this normal.
     #[inline]
-    fn sum_of_short(&self, normal: [f32; 3], found: &Nearest) -> Option<Sums> {
+    fn sum_of_short(&self, normal: [f32; 3], found: &Nearest) -> Option<Sum> {
         let is_same = |photon: Short| on_same_surface(self.placed.normal(photon.normal()), normal);
-        let Some((_, place)) = found.farthest_place() else { return Some(Sums::default()) };
-        let one = self.placed.short(place);
-        let (mut sums, mut others) = (Sums::default(), 0);
-        found.for_each_place(|place| {
-            let photon = self.placed.short(place);
-            others |= photon.normal() ^ one.normal();
-            sums.add(photon);
-        });
+        let Some((_, place)) = found.farthest_place() else { return Some(Sum::new(&Short::default())) };
+        let one = self.placed.short(place)?;
+        let mut all = Sum::new(&one);
+        found.for_places(|places| self.placed.add(places, &mut all));
         // Photons of a plane have one normal.
-        let same =
-            if others == 0 { is_same(one) } else { found.places().all(|(_, place)| is_same(self.placed.short(place))) };
-        same.then_some(sums)
+        let same = if all.is_plane() {
+            is_same(one)
+        } else {
+            found.places().all(|(_, place)| self.placed.short(place).is_some_and(is_same))
+        };
+        same.then_some(all)
     }
 
     /// The unit in which powers add up as integers, if all photons of a surface count alike.
     pub(super) fn unit_of_short(&self) -> Option<f64> {
         let alike = self.options.kernel == Kernel::Constant && self.options.edges != Edges::Sloped;
-        self.placed.unit(self.options.k).filter(|_| alike)
+        self.placed.unit().filter(|_| alike && self.exact_sums)
     }
 }

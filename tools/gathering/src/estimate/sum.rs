@@ -38,6 +38,9 @@ impl RadianceEstimate<'_> {
     ) -> [f64; 3] {
         let kernel = self.options.kernel;
         let exact = self.exact_sums && kernel == Kernel::Constant && brdf.is_none() && slope.is_none();
+        if exact && let Some(sum) = self.placed.sum(own) {
+            return sum;
+        }
         if !exact {
             // Rounded sums depend on their order: then it is that of the ids, whatever order they were found in.
             own.sort_unstable_by_key(|&(place, _)| self.placed.id(place));
