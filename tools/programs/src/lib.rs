@@ -6,6 +6,7 @@ mod asked;
 pub mod cachesim;
 pub mod chart;
 pub mod cli;
+mod clock;
 mod foreign_args;
 pub mod gather;
 pub mod photons;

@@ -2,7 +2,6 @@
 
 mod args;
 mod chart;
-mod clock;
 mod flip;
 mod pilots;
 mod refuse;
@@ -11,6 +10,7 @@ mod traffic;
 
 use crate::asked::Asked;
 use crate::cli::{Program, Progress, Typed, create_output, refusal};
+use crate::clock;
 use crate::picture::caustics;
 use crate::setting;
 pub use args::Args;

@@ -65,6 +65,7 @@ impl Description<'_> {
     fn lookups(&self, lookups: &Lookups) -> Vec<Named> {
         use Value::{Float, Int, Text};
         let per_query = |number: u64, digits: u8| Float(number as f64 / lookups.queries as f64, digits);
+        let building = |seconds: fn(Building) -> f64| Float(self.building.map_or(f64::NAN, seconds), 3);
         let line = u64::from(self.args.line());
         vec![
             ("map", Text(self.args.map.entry.word().into())),
@@ -72,7 +73,8 @@ impl Description<'_> {
             ("k", Int(self.search.k as u64)),
             ("photons", Int(self.photons.len() as u64)),
             ("structure_bytes", Int(self.header.regions.iter().map(|region| region.size).sum())),
-            ("build_seconds", Float(self.building.map_or(f64::NAN, |building| building.seconds), 3)),
+            ("build_seconds", building(|building| building.seconds)),
+            ("build_processor_seconds", building(|building| building.processor_seconds)),
             ("build_peak_bytes", self.building.and_then(|building| building.peak_bytes).map_or(Text("-".into()), Int)),
             ("gather_seconds", Float(self.done.seconds, 3)),
             ("queries", Int(lookups.queries)),

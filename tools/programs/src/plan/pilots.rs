@@ -1,6 +1,6 @@
 //! The time of a picture, by smaller ones made here and now.
 
-use super::clock;
+use crate::clock;
 use crate::pipe::Pipe;
 use anyhow::Context as _;
 use pm_plan::{Choice, Estimate, Recipe, Times, is_large};

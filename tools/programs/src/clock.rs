@@ -4,12 +4,12 @@ use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeValLike as _;
 
 /// Seconds of processor time that this process has taken.
-pub(super) fn own_seconds() -> f64 {
+pub(crate) fn own_seconds() -> f64 {
     seconds(UsageWho::RUSAGE_SELF)
 }
 
 /// Seconds of processor time that programs have taken that this process has run and waited for, with those that they ran.
-pub(super) fn seconds_of_others() -> f64 {
+pub(crate) fn seconds_of_others() -> f64 {
     seconds(UsageWho::RUSAGE_CHILDREN)
 }
 
