@@ -2,7 +2,7 @@
 # One promise of pm-plan --on-chip, held against the truth: plans a picture with some seeds, measures each time in full what is printed
 # for that, and prints, as one row of CSV, how often the bytes were within their interval.
 #   scripts/plan-traffic-point.sh OUT ROOM ERROR ON_CHIP RUNS [options of pm-plan]
-# ROOM is a scene of scenes/ or out/scenes/. The map of the whole is another one of as many photons, as whoever pastes it makes it.
+# ROOM is a scene of scenes/ or out/scenes/. The map of the whole is another one of as many photons, each time with a fresh seed.
 set -euo pipefail
 out=$1 room=$2 wanted=$3 on_chip=$4 runs=$5
 shift 5
@@ -17,9 +17,10 @@ for seed in $(seq 1 "$runs"); do
     pm-plan -q "${load[@]}" --error "$wanted" --on-chip "$on_chip" --seed "$seed" --format csv "$@" > "$work/plan.csv" 2> "$work/why" || code=$?
     if [ $code = 4 ]; then continue; elif [ $code != 0 ]; then cat "$work/why" >&2; exit $code; fi
     mapfile -t traffic < <(planned_traffic "$work/plan.csv")
-    pm-photons -q "${load[@]}" -n "$(planned "$work/plan.csv" photons)" -o "$work/map.pmp"
+    map=(-q "${load[@]}" --seed $((1000 + seed)))
+    pm-photons "${map[@]}" -n "$(planned "$work/plan.csv" photons)" -o "$work/map.pmp"
     caustics=$(planned "$work/plan.csv" caustics)
-    if [ "$caustics" -gt 0 ]; then pm-photons -q --caustics "${load[@]}" -n "$caustics" -o "$work/caustics.pmp"; fi
+    if [ "$caustics" -gt 0 ]; then pm-photons --caustics "${map[@]}" -n "$caustics" -o "$work/caustics.pmp"; fi
     # Pipes of two maps stand one after the other; scenes are told from where this is run.
     pipes=${traffic[3]//map.pmp/$work/map.pmp}
     pipes=${pipes//caustics.pmp/$work/caustics.pmp}

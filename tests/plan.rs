@@ -141,7 +141,7 @@ fn traffic_is_what_the_whole_picture_fetches() {
     // Catches: bytes of another order, cache or number of rays than those that are printed, a sample taken for the whole, an
     // interval that the whole is not in, a map that fits and is fetched again and again.
     let folder = Folder::new();
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell-diffuse.obj --size 96x96");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell-diffuse.obj");
     let planned = |more: &str| -> (f64, f64, f64, String, u64) {
         let row = folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --format json {more}")).ok();
         let json: serde_json::Value = serde_json::from_str(row.text()).expect("JSON");
@@ -156,27 +156,36 @@ fn traffic_is_what_the_whole_picture_fetches() {
             number("photons") as u64,
         )
     };
-    let whole = |pipe: &str, photons: u64| -> f64 {
-        folder.run(&format!("pm-photons -q {scene} -n {photons} -o map.pmp").replace(" --size 96x96", "")).ok();
+    let whole = |pipe: &str, photons: &str| -> f64 {
+        folder.run(&format!("pm-photons -q {scene} -n {photons} -o map.pmp")).ok();
         let printed = folder.sh(&format!("{pipe} -q --format json")).ok();
         let json: serde_json::Value = serde_json::from_str(printed.text()).expect("JSON");
         json["rows"][0]["bytes_fetched"].as_f64().expect("bytes")
     };
-    let (found, _, _, pipe, photons) = planned("--on-chip 4M");
-    let all = whole(&pipe, photons);
+    let (found, _, _, pipe, photons) = planned("--size 96x96 --on-chip 4M");
+    let all = whole(&pipe, &photons.to_string());
     assert!(found <= 40.0 * photons as f64 && found >= all, "{found} for {photons} photons, {all} by {pipe}");
     // Two of three: one of many may be outside, as it says (make plan-traffic counts more of them).
     let within = (1..=3).filter(|seed| {
-        let (found, low, high, pipe, photons) = planned(&format!("--on-chip 16K --seed {seed}"));
-        let all = whole(&pipe, photons);
+        let (found, low, high, pipe, photons) = planned(&format!("--size 96x96 --on-chip 16K --seed {seed}"));
+        let all = whole(&pipe, &photons.to_string());
         assert!(all > 40.0 * photons as f64, "{all}");
         assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
         (low..=high).contains(&all)
     });
     assert!(within.count() >= 2);
+    // All searches of a small picture are measured, and still it will have another map.
+    let (found, low, high, pipe, photons) = planned("--size 24x24 --on-chip 16K");
+    assert!(low < found && found < high, "{low} {found} {high}");
+    let within = [0, 1001, 1002].into_iter().filter(|seed| {
+        let all = whole(&pipe, &format!("{photons} --seed {seed}"));
+        assert!((0.5..2.0).contains(&(found / all)), "{found}, not {all}");
+        (low..=high).contains(&all)
+    });
+    assert!(within.count() >= 2);
 
-    let refused =
-        folder.run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --on-chip 16K --bandwidth 1MB/s --fps 100"));
+    let refused = folder
+        .run(&format!("pm-plan --error 9% {scene} {LITTLE} -q --size 96x96 --on-chip 16K --bandwidth 1MB/s --fps 100"));
     assert!(refused.fails(4).contains("--bandwidth: an error of 9% takes "), "{}", refused.stderr);
 }
 

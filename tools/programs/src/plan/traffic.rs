@@ -105,6 +105,8 @@ const LONG_WINDOW: [u64; 2] = [2400, 1600];
 const TILE: u32 = 8;
 /// Sides of tiles that are sorted.
 const SORTED_TILES: [u32; 5] = [4, 8, 16, 32, 64];
+/// Maps, each with a seed of its own, by which it is known how much one fetches more or less than another.
+const MAPS: u64 = 6;
 /// Caches are of whole multiples of so many bytes.
 const CACHE_STEP: u64 = 4096;
 
@@ -132,20 +134,34 @@ impl<'a> Chip<'a> {
     pub(super) fn measure(&self, recipe: &Recipe) -> anyhow::Result<Vec<Fetched>> {
         let orders = self.orders(recipe).into_iter();
         let mut found: Vec<Fetched> =
-            orders.map(|order| self.fetched(recipe, order, self.few())).collect::<anyhow::Result<_>>()?;
+            orders.map(|order| self.fetched(recipe, order, self.few(), 0)).collect::<anyhow::Result<_>>()?;
         found.sort_by(|a, b| a.bytes.value.total_cmp(&b.bytes.value));
-        if let (Some(least), true) = (found.first_mut(), self.is_large()) {
+        let Some(least) = found.first_mut() else { return Ok(found) };
+        if self.is_large() {
             // By another sample: that of what is the least of several is too good to be true.
-            *least = self.fetched(recipe, least.order, SAMPLE)?;
+            *least = self.fetched(recipe, least.order, SAMPLE, 0)?;
+        } else {
+            // The picture will have another map. Of a large one that is far less than what a sample leaves open.
+            let another = self.another_map(recipe, least)?;
+            found.iter_mut().for_each(|fetched| fetched.bytes = fetched.bytes.times(another));
         }
         Ok(found)
+    }
+
+    /// How many times what the first map fetches in this order another one does, by the same searches.
+    fn another_map(&self, recipe: &Recipe, first: &Fetched) -> anyhow::Result<Estimate> {
+        let by_map = |map| Ok(self.fetched(recipe, first.order, self.few(), map)?.bytes.value);
+        let others = (1..MAPS).map(by_map).collect::<anyhow::Result<Vec<f64>>>()?;
+        let first = first.bytes.value;
+        let all: Vec<f64> = std::iter::once(first).chain(others).map(|bytes| bytes / first).collect();
+        Ok(Estimate::of_another(&all))
     }
 
     /// Bytes that a search fetches: in the order that needs little room, of rays as few as there may be.
     pub(super) fn search_bytes(&self, k: u32, photons: u64) -> Result<f64, Trouble> {
         let recipe = Recipe { samples: 4, gathers: 4, light_samples: 1, photons, k, caustics: 0 };
         let order = self.orders(&recipe).into_iter().find(|order| matches!(order, Order::Hilbert(_)));
-        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.few())?;
+        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.few(), 0)?;
         let [width, height] = self.size;
         let searches = f64::from(width) * f64::from(height) * f64::from(recipe.samples * recipe.gathers);
         Ok(found.bytes.value / searches)
@@ -186,13 +202,13 @@ impl<'a> Chip<'a> {
         ((self.on_chip - self.store(recipe, order)) / CACHE_STEP).max(1) * CACHE_STEP
     }
 
-    /// What an order fetches, by so many searches, about.
-    fn fetched(&self, recipe: &Recipe, order: Order, wanted: u64) -> anyhow::Result<Fetched> {
+    /// What an order fetches of the map of this number, by so many searches, about.
+    fn fetched(&self, recipe: &Recipe, order: Order, wanted: u64, number: u64) -> anyhow::Result<Fetched> {
         let cache = self.cache(recipe, order);
         let mut bytes = Estimate::default();
         let mut pipes = vec![];
         for &searches in Searches::of(recipe) {
-            let map = self.map(searches, searches.map(recipe).0)?;
+            let map = self.map(searches, searches.map(recipe).0, number)?;
             // Beside a large picture nothing is measured that is known.
             let known = self.maps.borrow()[&map].filter(|&size| self.is_large() && size <= cache);
             bytes = bytes.plus(match known {
@@ -267,12 +283,13 @@ impl<'a> Chip<'a> {
         pipe.then("pm-gather", gather).then("pm-cachesim", words(&format!("--sizes {} --ways full", Bytes(cache))))
     }
 
-    /// A map of so many photons, as the picture's will be.
-    fn map(&self, searches: Searches, photons: u64) -> anyhow::Result<String> {
-        let path = self.folder.path().join(format!("{photons}.{}", searches.file())).display().to_string();
+    /// A map of so many photons, as the picture's will be; those of other numbers have other seeds.
+    fn map(&self, searches: Searches, photons: u64, number: u64) -> anyhow::Result<String> {
+        let path = self.folder.path().join(format!("{photons}.{number}.{}", searches.file())).display().to_string();
         if !self.maps.borrow().contains_key(&path) {
             let which = if searches == Searches::Caustics { "--caustics " } else { "" };
-            let options = words(&format!("{which}-q -n {photons} --seed {}", self.seed));
+            let seed = self.seed.wrapping_add(number);
+            let options = words(&format!("{which}-q -n {photons} --seed {seed}"));
             let output = ["-o".to_owned(), path.clone()];
             Pipe::new("pm-photons", options.into_iter().chain(output).chain(self.scene.iter().cloned())).run()?;
             self.maps.borrow_mut().insert(path.clone(), None);
