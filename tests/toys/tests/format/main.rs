@@ -17,6 +17,7 @@ use pm_programs::{cachesim, view};
 use pm_registry::Registry;
 use shouts::Shouts;
 use std::fs;
+use std::io::BufReader;
 
 /// The formats there are, and a line for each that is new.
 fn imports() -> Registry<dyn TraceImport> {
@@ -133,7 +134,7 @@ fn pm_view_writes_them_and_they_are_read_again() {
     assert_eq!(fs::read_to_string(&arrows).expect("text"), "<1000 20\n<1014 20\n<1028 20\n");
     assert_eq!(fs::read_to_string(&shouts).expect("text"), "0x1000!\n0x1014!\n0x1028!\n");
     // By its first line, for nobody says what it is.
-    let input = fs::File::open(&arrows).expect("a file");
+    let input = BufReader::new(fs::File::open(&arrows).expect("a file"));
     let Ok(Opened::Foreign(mut read)) = traces::open(input, &Reading::plain(), &imports()) else { panic!("not known") };
     let mut count = Count::default();
     read.replay(&mut count).expect("accesses");
