@@ -152,9 +152,7 @@ impl<'a> Chip<'a> {
     fn another_map(&self, recipe: &Recipe, first: &Fetched) -> anyhow::Result<Estimate> {
         let by_map = |map| Ok(self.fetched(recipe, first.order, self.few(), map)?.bytes.value);
         let others = (1..MAPS).map(by_map).collect::<anyhow::Result<Vec<f64>>>()?;
-        let first = first.bytes.value;
-        let all: Vec<f64> = std::iter::once(first).chain(others).map(|bytes| bytes / first).collect();
-        Ok(Estimate::of_another(&all))
+        Ok(beside(first.bytes.value, &others))
     }
 
     /// Bytes that a search fetches: in the order that needs little room, of rays as few as there may be.
@@ -306,6 +304,16 @@ fn quiet_csv() -> Vec<String> {
     words("-q --format csv")
 }
 
+/// How many times what the first map fetches another one does, as these others do.
+fn beside(first: f64, others: &[f64]) -> Estimate {
+    // No search meets a photon, and none will: where gather rays leave the scene there are no searches.
+    if first <= 0.0 {
+        return Estimate { value: 1.0, spread: Spread::default() };
+    }
+    let all: Vec<f64> = std::iter::once(&first).chain(others).map(|bytes| bytes / first).collect();
+    Estimate::of_another(&all)
+}
+
 /// A map that fits is fetched once.
 fn once(bytes_of_map: u64) -> Estimate {
     Estimate { value: bytes_of_map as f64, spread: Spread::default() }
@@ -327,4 +335,18 @@ fn read(printed: &[u8], cache: u64) -> anyhow::Result<(Estimate, u64)> {
     let freedom = field("degrees_of_freedom")?.max(1.0);
     let variance = (half_width / student_quantile(CONFIDENCE, freedom)).powi(2);
     Ok((Estimate { value, spread: Spread { variance, freedom } }, bytes_of_map))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_map_fetches_as_much_as_others_do_and_nothing_where_nothing_is_searched() {
+        let bytes = once(1000).times(beside(1000.0, &[1100.0, 900.0, 1200.0]));
+        assert!((bytes.value - 1050.0).abs() < 1e-9);
+        assert!(bytes.lower(0.95) < 900.0 && bytes.upper(0.95) > 1200.0, "{bytes:?}");
+        let nothing = once(0).times(beside(0.0, &[0.0; 5]));
+        assert_eq!((nothing.value, nothing.lower(0.95), nothing.upper(0.95)), (0.0, 0.0, 0.0));
+    }
 }
