@@ -24,6 +24,19 @@ fn walk(node: u32, nodes: u32, choices: &mut impl FnMut() -> bool, visited: &mut
     }
 }
 
+/// A walk that visits both children of the nodes on so many levels and one of those below; `choices` say which, and
+/// whether both on the lowest levels.
+fn walk_wide_above(node: u32, nodes: u32, levels: u32, choices: &mut impl FnMut() -> bool, visited: &mut Vec<u32>) {
+    visited.push(node - 1);
+    if 2 * node < nodes {
+        let first = 2 * node + u32::from(choices());
+        walk_wide_above(first, nodes, levels.saturating_sub(1), choices, visited);
+        if levels > 0 || (node > nodes / 8 && choices()) {
+            walk_wide_above(first ^ 1, nodes, levels.saturating_sub(1), choices, visited);
+        }
+    }
+}
+
 fn decoded(bytes: &[u8], nodes: u32) -> Option<Vec<u32>> {
     let mut visited = vec![];
     decode(&mut BitReader::new(bytes), nodes, &mut Visits::new(), &mut |visits| visited.extend_from_slice(visits))
@@ -49,6 +62,22 @@ proptest! {
         // A second walk right behind it is told apart.
         let twice = [visited.clone(), visited.clone()].concat();
         prop_assert_eq!(encode(&twice, nodes, &mut BitWriter::default()), Some(visited.len()));
+    }
+
+    #[test]
+    fn walks_of_the_deepest_trees_come_back(
+        nodes in prop_oneof![1u32 << 26..1 << 29, 1 << 29..=MAX_NODES, Just(MAX_NODES), Just((1 << 28) + 1)],
+        levels in 0u32..7,
+        choices in prop::collection::vec(any::<bool>(), 1..400),
+    ) {
+        // The way back up is longer than what is left of the bits that are looked at together.
+        let mut choices = choices.into_iter().cycle();
+        let mut visited = vec![];
+        walk_wide_above(1, nodes, levels, &mut || choices.next().unwrap_or(true), &mut visited);
+        let mut bits = BitWriter::default();
+        prop_assert_eq!(encode(&visited, nodes, &mut bits), Some(visited.len()));
+        bits.align();
+        prop_assert_eq!(decoded(&bits.bytes, nodes), Some(visited));
     }
 
     #[test]
