@@ -95,8 +95,21 @@ pub(super) struct Fetched {
     pub(super) pipes: Vec<Pipe>,
 }
 
+/// What is measured of the picture's searches.
+#[derive(Clone, Copy)]
+struct Look {
+    /// So many of them, about.
+    searches: u64,
+    /// Which sample: others have other seeds.
+    sample: u64,
+    /// Which map: others have other seeds.
+    map: u64,
+}
+
 /// Searches of a sample, about.
 const SAMPLE: u64 = 60_000;
+/// What the bytes that are told are measured by.
+const LAST_LOOK: Look = Look { searches: SAMPLE, sample: 0, map: 0 };
 /// Searches of a window in scanline order, and of those before it that fill the cache.
 const WINDOW: [u64; 2] = [400, 1600];
 /// Of a large picture: the rays of a row are cast from its beginning, and its rows are long.
@@ -134,13 +147,14 @@ impl<'a> Chip<'a> {
     pub(super) fn measure(&self, recipe: &Recipe) -> anyhow::Result<Vec<Fetched>> {
         let orders = self.orders(recipe).into_iter();
         let mut found: Vec<Fetched> =
-            orders.map(|order| self.fetched(recipe, order, self.few(), 0)).collect::<anyhow::Result<_>>()?;
+            orders.map(|order| self.fetched(recipe, order, self.first_look())).collect::<anyhow::Result<_>>()?;
         found.sort_by(|a, b| a.bytes.value.total_cmp(&b.bytes.value));
         let Some(least) = found.first_mut() else { return Ok(found) };
-        if self.is_large() {
+        if least.bytes.spread.variance > 0.0 {
             // By another sample: that of what is the least of several is too good to be true.
-            *least = self.fetched(recipe, least.order, SAMPLE, 0)?;
-        } else {
+            *least = self.fetched(recipe, least.order, LAST_LOOK)?;
+        }
+        if !self.is_large() {
             // The picture will have another map. Of a large one that is far less than what a sample leaves open.
             let another = self.another_map(recipe, least)?;
             found.iter_mut().for_each(|fetched| fetched.bytes = fetched.bytes.times(another));
@@ -148,9 +162,9 @@ impl<'a> Chip<'a> {
         Ok(found)
     }
 
-    /// How many times what the first map fetches in this order another one does, by the same searches.
+    /// How many times what the first map fetches in this order another one does, by the same searches as were looked at last.
     fn another_map(&self, recipe: &Recipe, first: &Fetched) -> anyhow::Result<Estimate> {
-        let by_map = |map| Ok(self.fetched(recipe, first.order, self.few(), map)?.bytes.value);
+        let by_map = |map| Ok(self.fetched(recipe, first.order, Look { map, ..LAST_LOOK })?.bytes.value);
         let others = (1..MAPS).map(by_map).collect::<anyhow::Result<Vec<f64>>>()?;
         Ok(beside(first.bytes.value, &others))
     }
@@ -159,7 +173,7 @@ impl<'a> Chip<'a> {
     pub(super) fn search_bytes(&self, k: u32, photons: u64) -> Result<f64, Trouble> {
         let recipe = Recipe { samples: 4, gathers: 4, light_samples: 1, photons, k, caustics: 0 };
         let order = self.orders(&recipe).into_iter().find(|order| matches!(order, Order::Hilbert(_)));
-        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.few(), 0)?;
+        let found = self.fetched(&recipe, order.unwrap_or(Order::Scanline), self.first_look())?;
         let [width, height] = self.size;
         let searches = f64::from(width) * f64::from(height) * f64::from(recipe.samples * recipe.gathers);
         Ok(found.bytes.value / searches)
@@ -190,9 +204,9 @@ impl<'a> Chip<'a> {
         is_large(width * height)
     }
 
-    /// Searches of a sample that is looked at to choose by: beside a large picture all that is measured has to be cheap.
-    fn few(&self) -> u64 {
-        if self.is_large() { SAMPLE / 3 } else { SAMPLE }
+    /// What is looked at to choose by: beside a large picture all that is measured has to be cheap.
+    fn first_look(&self) -> Look {
+        Look { searches: if self.is_large() { SAMPLE / 3 } else { SAMPLE }, sample: 1, map: 0 }
     }
 
     /// Bytes of the cache: what is on the chip, less the order's store.
@@ -200,19 +214,19 @@ impl<'a> Chip<'a> {
         ((self.on_chip - self.store(recipe, order)) / CACHE_STEP).max(1) * CACHE_STEP
     }
 
-    /// What an order fetches of the map of this number, by so many searches, about.
-    fn fetched(&self, recipe: &Recipe, order: Order, wanted: u64, number: u64) -> anyhow::Result<Fetched> {
+    /// What an order fetches.
+    fn fetched(&self, recipe: &Recipe, order: Order, look: Look) -> anyhow::Result<Fetched> {
         let cache = self.cache(recipe, order);
         let mut bytes = Estimate::default();
         let mut pipes = vec![];
         for &searches in Searches::of(recipe) {
-            let map = self.map(searches, searches.map(recipe).0, number)?;
+            let map = self.map(searches, searches.map(recipe).0, look.map)?;
             // Beside a large picture nothing is measured that is known.
             let known = self.maps.borrow()[&map].filter(|&size| self.is_large() && size <= cache);
             bytes = bytes.plus(match known {
                 Some(size) => once(size),
                 None => {
-                    let sample = self.sample(recipe, searches, order, wanted);
+                    let sample = self.sample(recipe, searches, order, look);
                     let printed = self.pipe(recipe, searches, order, cache, &map, &sample).with(quiet_csv()).run()?;
                     let (found, size) = read(&printed, cache)?;
                     self.maps.borrow_mut().insert(map, Some(size));
@@ -225,12 +239,13 @@ impl<'a> Chip<'a> {
     }
 
     /// Which rays are cast: options of `pm-queries`; none where all are.
-    fn sample(&self, recipe: &Recipe, searches: Searches, order: Order, wanted: u64) -> Vec<String> {
+    fn sample(&self, recipe: &Recipe, searches: Searches, order: Order, look: Look) -> Vec<String> {
         let [width, height] = self.size.map(u64::from);
         if width * height * searches.of_pixel(recipe) <= 2 * SAMPLE {
             return vec![];
         }
-        let seed = ["--sample-seed".to_owned(), self.seed.wrapping_add(u64::from(wanted != SAMPLE)).to_string()];
+        let wanted = look.searches;
+        let seed = ["--sample-seed".to_owned(), self.seed.wrapping_add(look.sample).to_string()];
         let side = match order {
             Order::Scanline => {
                 let long = self.is_large() && searches == Searches::Gather;
