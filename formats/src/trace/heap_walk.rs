@@ -99,19 +99,19 @@ pub(super) fn decode(
         }
         let mut looked_at = depth - above;
         if 4 * node + 3 <= nodes {
-            let bits = visits.push_lowest(node, ahead);
-            ahead >>= bits;
-            looked_at += bits;
-        }
-        // Most often all bits that the way back up may have are there.
-        if 4 * node + 3 > nodes || looked_at + depth > BitReader::AHEAD {
+            let taken = visits.push_lowest(node, ahead);
+            ahead >>= taken;
+            looked_at += taken;
             bits.skip(looked_at as u32);
-            if 4 * node + 3 > nodes {
-                visits.push_below(node, nodes, bits);
-            }
+        } else {
+            bits.skip(looked_at as u32);
+            visits.push_below(node, nodes, bits);
             (ahead, looked_at) = (bits.ahead(), 0);
         }
-        bits.skip(looked_at as u32);
+        // Most often all bits that the way back up may have are there.
+        if looked_at + depth > BitReader::AHEAD {
+            ahead = bits.ahead();
+        }
         // Back up, until a second child is visited too.
         let undecided = ahead.trailing_zeros() as usize;
         if undecided >= depth {
