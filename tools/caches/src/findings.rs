@@ -17,8 +17,8 @@ pub use record_counts::RecordCounts;
 pub(crate) use result_traffic::ResultTraffic;
 pub use result_traffic::{ResultMemory, SECTOR_BYTES};
 pub use trace_counts::TraceCounts;
+pub(crate) use working_sets::WorkingSetCounter;
 pub use working_sets::WorkingSets;
-pub(crate) use working_sets::{SearchStart, WorkingSetCounter};
 
 use crate::{Curve, SampledCurve};
 

@@ -12,7 +12,7 @@ pub(crate) use accesses::{AccessBuffer, Accesses, CHUNK};
 pub use attributes::Attributes;
 pub(crate) use attributes::{Shape, Shapes};
 pub use chunk::LineChunk;
-pub(crate) use chunk::{Repeats, Resume};
+pub(crate) use chunk::{Repeats, Resume, SearchStart};
 pub(crate) use places::{PAGE_SHIFT, Places};
 pub use space::LineSpace;
 

@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 use pm_formats::trace::{Access, Region, TraceSink, Waits};
 
 use crate::config::check_line;
-use crate::findings::{ResultTraffic, SearchStart};
-use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places};
+use crate::findings::ResultTraffic;
+use crate::lines::{AccessBuffer, CHUNK, PAGE_SHIFT, Places, SearchStart};
 use crate::misses::{Banks, PageSwitches, Waiting};
 use crate::{CacheConfig, CacheCounts, LaneSink, Measures, RecordCounts};
 use error::check_regions;

@@ -8,7 +8,7 @@
 //! * where a batch is a tile whose pixels fit in that cache, they stay on chip until the batch is over; then each sector
 //!   that the batch touched is written once, and none is read, since all of a pixel's queries are in its tile.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 
 /// How results are held and where they go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,9 +37,9 @@ impl ResultMemory {
 pub(crate) struct ResultTraffic {
     memory: ResultMemory,
     /// Sectors in the cache: when each was last used, and whether it is dirty by a query that counts.
-    cached: BTreeMap<u64, Cached>,
-    /// The same by time of their last use.
-    by_time: BTreeMap<u64, u64>,
+    cached: HashMap<u64, Cached>,
+    /// Times at which sectors were used, in order, and which: the last use of each that is in the cache, and earlier ones.
+    uses: VecDeque<(u64, u64)>,
     now: u64,
     /// The tile in hand, and its sectors.
     tile: (u64, BTreeSet<u64>),
@@ -56,8 +56,8 @@ impl ResultTraffic {
     pub(crate) fn new(memory: ResultMemory) -> Self {
         Self {
             memory,
-            cached: BTreeMap::new(),
-            by_time: BTreeMap::new(),
+            cached: HashMap::new(),
+            uses: VecDeque::new(),
             now: 0,
             tile: (0, BTreeSet::new()),
             sectors_read: 0,
@@ -90,23 +90,42 @@ impl ResultTraffic {
     /// Reads, changes and writes a sector through the cache. Every write-back is charged when the sector turns dirty.
     fn touch(&mut self, sector: u64, counted: bool) {
         let sectors = self.memory.cache_bytes / SECTOR_BYTES;
-        if let Some(cached) = self.cached.get(&sector) {
-            self.by_time.remove(&cached.time);
-        } else {
+        // A cache of less than a sector holds nothing.
+        if sectors == 0 {
             self.sectors_read += u64::from(counted);
-            // A cache of less than a sector holds nothing.
-            if self.cached.len() as u64 >= sectors
-                && let Some((_, oldest)) = self.by_time.pop_first()
-            {
-                self.cached.remove(&oldest);
+            self.sectors_written += u64::from(counted);
+            return;
+        }
+        self.now += 1;
+        self.uses.push_back((self.now, sector));
+        match self.cached.get_mut(&sector) {
+            Some(cached) => {
+                self.sectors_written += u64::from(counted && !cached.dirty);
+                *cached = Cached { time: self.now, dirty: cached.dirty || counted };
+            }
+            None => {
+                self.sectors_read += u64::from(counted);
+                self.sectors_written += u64::from(counted);
+                if self.cached.len() as u64 >= sectors {
+                    self.evict();
+                }
+                self.cached.insert(sector, Cached { time: self.now, dirty: counted });
             }
         }
-        let was_dirty = self.cached.get(&sector).is_some_and(|cached| cached.dirty);
-        self.sectors_written += u64::from(counted && !was_dirty);
-        if sectors > 0 {
-            self.cached.insert(sector, Cached { time: self.now, dirty: was_dirty || counted });
-            self.by_time.insert(self.now, sector);
-            self.now += 1;
+        // Uses that are not the last of their sector go when they are as many again.
+        if self.uses.len() > 2 * self.cached.len() + 64 {
+            let cached = &self.cached;
+            self.uses.retain(|(time, sector)| cached.get(sector).is_some_and(|cached| cached.time == *time));
+        }
+    }
+
+    /// The sector used least recently leaves.
+    fn evict(&mut self) {
+        while let Some((time, sector)) = self.uses.pop_front() {
+            if self.cached.get(&sector).is_some_and(|cached| cached.time == time) {
+                self.cached.remove(&sector);
+                return;
+            }
         }
     }
 

@@ -1,16 +1,7 @@
 //! Working sets: how many distinct lines a search touches, and how many a batch.
 
 use super::Distribution;
-use crate::lines::{Accesses, LineSpace, Shapes};
-
-/// Where a search that counts begins among the accesses that wait.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SearchStart {
-    /// Index of its first access.
-    pub(crate) at: usize,
-    /// The batch it belongs to.
-    pub(crate) batch: u64,
-}
+use crate::lines::LineChunk;
 
 /// Distinct lines of one size. Warm-up is left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,115 +14,98 @@ pub struct WorkingSets {
 }
 
 /// Counts them.
+///
+/// A batch is a run of searches, so the last search that touched a line tells whether its batch has touched it.
 pub(crate) struct WorkingSetCounter {
-    /// By slot: the last search and the last batch that touched it, numbered from 1.
-    last: Vec<[u32; 2]>,
-    search: OpenSet,
-    batch: OpenSet,
+    /// By slot: the last search that touched it; 0 before the first.
+    last: Vec<u32>,
+    /// The search that is open, numbered from 1; 0 before the first.
+    search: u32,
+    /// The first search of the batch that is open.
+    first_of_batch: u32,
     /// The batch that is open.
     batch_id: u64,
+    /// Distinct lines of the search that is open, and of the batch.
+    of_search: u32,
+    of_batch: u32,
+    /// The greatest number of a search: then they begin anew.
+    most: u32,
     sets: WorkingSets,
-}
-
-/// A search or a batch that goes on.
-#[derive(Default)]
-struct OpenSet {
-    /// Its number; 0 before the first.
-    number: u32,
-    lines: u32,
 }
 
 impl WorkingSetCounter {
     pub(crate) fn new(slots: u64) -> Self {
         Self {
-            last: vec![[0; 2]; slots as usize],
-            search: OpenSet::default(),
-            batch: OpenSet::default(),
+            last: vec![0; slots as usize],
+            search: 0,
+            first_of_batch: 0,
             batch_id: 0,
+            of_search: 0,
+            of_batch: 0,
+            most: u32::MAX,
             sets: WorkingSets::default(),
         }
     }
 
-    /// Counts the lines of accesses among which searches begin at `starts`. Those before the first belong to the search
-    /// that began before.
-    pub(crate) fn run(&mut self, space: &LineSpace, accesses: &Accesses, starts: &[SearchStart]) {
-        let mut from = 0;
-        for start in starts {
-            self.touch(space, accesses, from..start.at);
+    /// Counts the lines of a chunk that knows where searches begin. Those before the first belong to the search that began
+    /// before.
+    pub(crate) fn run(&mut self, chunk: &LineChunk) {
+        let (slots, mut from) = (chunk.slots(), 0);
+        for start in chunk.starts() {
+            self.touch(&slots[from..start.at]);
             self.begin(start.batch);
             from = start.at;
         }
-        self.touch(space, accesses, from..accesses.len());
+        self.touch(&slots[from..]);
     }
 
     fn begin(&mut self, batch: u64) {
         self.end_search();
-        if self.batch.number == 0 || self.batch_id != batch {
+        if self.search == self.most {
+            self.number_anew();
+        }
+        self.search += 1;
+        self.of_search = 0;
+        if self.first_of_batch == 0 || self.batch_id != batch {
             self.end_batch();
-            self.batch_id = batch;
-            self.next(1);
+            (self.first_of_batch, self.batch_id, self.of_batch) = (self.search, batch, 0);
         }
-        self.next(0);
     }
 
-    /// The next number of a search (0) or a batch (1). When numbers run out all lines forget theirs.
-    fn next(&mut self, which: usize) {
-        let open = if which == 0 { &mut self.search } else { &mut self.batch };
-        if open.number == u32::MAX {
-            self.last.iter_mut().for_each(|last| last[which] = 0);
-            open.number = 0;
-        }
-        *open = OpenSet { number: open.number + 1, lines: 0 };
+    /// When numbers run out, what lines have to know is whether the batch that is open has touched them: as if by its first
+    /// search, and that is the first of all.
+    #[cold]
+    fn number_anew(&mut self) {
+        self.last.iter_mut().for_each(|last| *last = u32::from(*last >= self.first_of_batch));
+        (self.search, self.first_of_batch) = (1, 1);
     }
 
-    #[inline]
-    fn touch(&mut self, space: &LineSpace, accesses: &Accesses, range: std::ops::Range<usize>) {
+    /// Whether a search comes back to a line depends on the data, so it is arithmetic and not a branch; and both sums are halves
+    /// of one number, since compilers make a vector of two, which takes twice as long.
+    fn touch(&mut self, slots: &[u32]) {
         // Before the first search there is nothing to count for.
-        if self.search.number == 0 {
+        if self.search == 0 {
             return;
         }
-        let offsets = accesses.offsets[range.clone()].iter();
-        match accesses.shapes {
-            Shapes::Alike(shape) => {
-                let ends = space.ends_of(shape);
-                offsets.for_each(|&offset| self.touch_lines(ends(offset)));
-            }
-            Shapes::Each(shapes) => {
-                offsets.zip(&shapes[range]).for_each(|(&offset, &shape)| self.touch_lines(space.ends(offset, shape)));
-            }
+        let (search, first_of_batch) = (self.search, self.first_of_batch);
+        let mut sums = 0;
+        for &slot in slots {
+            let last = std::mem::replace(&mut self.last[slot as usize], search);
+            sums += u64::from(last < search) + (u64::from(last < first_of_batch) << 32);
         }
-    }
-
-    /// A record from the one line to the other is read.
-    #[inline(always)]
-    fn touch_lines(&mut self, (first, end): (u32, u32)) {
-        self.touch_line(first);
-        // Most records lie in one line, or in two: the same line twice counts once.
-        self.touch_line(end);
-        if end > first + 1 {
-            (first + 1..end).for_each(|slot| self.touch_line(slot));
-        }
-    }
-
-    /// Whether a search comes back to a line depends on the data, so it is arithmetic and not a branch. A line that the search
-    /// has touched, its batch has touched too.
-    #[inline(always)]
-    fn touch_line(&mut self, slot: u32) {
-        let last = &mut self.last[slot as usize];
-        self.search.lines += u32::from(last[0] != self.search.number);
-        self.batch.lines += u32::from(last[1] != self.batch.number);
-        *last = [self.search.number, self.batch.number];
+        self.of_search += sums as u32;
+        self.of_batch += (sums >> 32) as u32;
     }
 
     fn end_search(&mut self) {
-        if self.search.number > 0 {
-            self.sets.per_search.add(self.search.lines);
+        if self.search > 0 {
+            self.sets.per_search.add(self.of_search);
         }
     }
 
     fn end_batch(&mut self) {
-        if self.batch.number > 0 {
-            self.sets.per_batch.add(self.batch.lines);
+        if self.first_of_batch > 0 {
+            self.sets.per_batch.add(self.of_batch);
         }
     }
 
@@ -139,5 +113,47 @@ impl WorkingSetCounter {
         self.end_search();
         self.end_batch();
         self.sets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lines::{AccessBuffer, LineSpace, Resume, SearchStart};
+    use pm_formats::trace::{Access, Coding, lay_out};
+    use pm_random::Random;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn numbers_of_searches_that_run_out_change_nothing() {
+        let space = LineSpace::new(&lay_out([("photons".to_owned(), 1024, 20, Coding::Records)]), 64);
+        for most in [2, 3, 10, u32::MAX] {
+            let (mut random, mut chunk) = (Random::new(&[5]), LineChunk::default());
+            let mut counter = WorkingSetCounter { most, ..WorkingSetCounter::new(space.slots()) };
+            let (mut expected, mut of_batch, mut open) = (WorkingSets::default(), BTreeSet::new(), None);
+            for search in 0..500_u64 {
+                // Batches of one search, and of more than there are numbers.
+                let batch = if search < 250 { search / 25 } else { search * search / 100 };
+                if open.is_some_and(|open| open != batch) {
+                    expected.per_batch.add(std::mem::take(&mut of_batch).len() as u32);
+                }
+                open = Some(batch);
+                let mut records = AccessBuffer::new(8);
+                let mut of_search = BTreeSet::new();
+                for _ in 0..random.next_u64() % 8 {
+                    let offset = random.next_u64() % 51 * 20;
+                    assert!(records.push(&Access::read(0, offset, 20)));
+                    of_search.extend(offset / 64..=(offset + 19) / 64);
+                }
+                expected.per_search.add(of_search.len() as u32);
+                of_batch.append(&mut of_search);
+                let mut resume = Resume::default();
+                while chunk.split(&space, &records.waiting(), &[SearchStart { at: 0, batch }], &mut resume) {
+                    counter.run(&chunk);
+                }
+            }
+            expected.per_batch.add(of_batch.len() as u32);
+            assert_eq!(counter.finish(), expected, "{most} numbers");
+        }
     }
 }

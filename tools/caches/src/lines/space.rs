@@ -139,14 +139,6 @@ impl LineSpace {
         self.regions[shape.attributes().region()].ends(self.shift, offset, shape.len() & self.len_mask)
     }
 
-    /// The same of records that all have this shape.
-    #[inline]
-    pub(crate) fn ends_of(&self, shape: Shape) -> impl Fn(u64) -> (u32, u32) + use<> {
-        let (numbering, shift, len) =
-            (self.regions[shape.attributes().region()], self.shift, shape.len() & self.len_mask);
-        move |offset| numbering.ends(shift, offset, len)
-    }
-
     /// How many lines a record touches besides that of its first byte.
     #[inline]
     pub(super) fn more_lines(&self, offset: u64, len: u32) -> u32 {

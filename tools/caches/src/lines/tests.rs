@@ -16,7 +16,7 @@ fn split(space: &LineSpace, accesses: &[(u64, u32, AccessKind)], repeats: Repeat
     }
     let (mut chunk, mut cursor) = (LineChunk::new(repeats), Resume::default());
     let (mut slots, mut number) = (Vec::new(), 0);
-    while chunk.split(space, &records.waiting(), &mut cursor) {
+    while chunk.split(space, &records.waiting(), &[], &mut cursor) {
         slots.extend(chunk.slots().iter().enumerate().map(|(i, &slot)| (slot, chunk.attributes(i).writes())));
         number += chunk.accesses();
     }

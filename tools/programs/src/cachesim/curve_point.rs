@@ -17,6 +17,8 @@ pub(super) struct CurvePoint {
     /// The commands that the trace came by.
     pub(super) history: Rc<str>,
     pub(super) exact: Option<Rc<Curve>>,
+    /// Where the cliff of the exact curve ends, in lines: found once, not for every size.
+    pub(super) cliff: Option<u64>,
     pub(super) sampled: Option<Rc<SampledCurve>>,
     pub(super) trace: TraceCounts,
     /// The size in lines.
@@ -67,7 +69,7 @@ impl CurvePoint {
     pub(super) fn mark(&self) -> &'static str {
         let Some(exact) = &self.exact else { return "" };
         match () {
-            () if exact.cliff() == Some(self.lines) => "cliff",
+            () if self.cliff == Some(self.lines) => "cliff",
             () if exact.last() == self.lines => "all",
             () => "",
         }

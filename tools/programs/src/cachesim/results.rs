@@ -105,7 +105,8 @@ impl Results {
             let Some(trace) = trace else { return Ok(()) };
             let (file, map) = (Rc::clone(&source.trace), Rc::clone(&source.map));
             let (order, history) = (source.order.clone(), Rc::clone(&source.history));
-            let mut point = CurvePoint { file, map, order, lanes, history, exact, sampled, trace, lines: 0 };
+            let cliff = exact.as_ref().and_then(|curve| curve.cliff());
+            let mut point = CurvePoint { file, map, order, lanes, history, exact, cliff, sampled, trace, lines: 0 };
             for lines in curve_sizes(args, &point)? {
                 point.lines = lines;
                 self.points.push(point.clone());

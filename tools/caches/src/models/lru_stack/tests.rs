@@ -28,7 +28,7 @@ fn run(stack: &mut dyn CacheModel, rounds: Range<u32>) {
             let kind = if state >> 29 == 0 { AccessKind::Write } else { AccessKind::Read };
             records.push(&Access { kind, region: 0, len: 4, offset: u64::from(line) * 64 });
         }
-        chunk.split(&space, &records.waiting(), &mut Resume::default());
+        chunk.split(&space, &records.waiting(), &[], &mut Resume::default());
         stack.run(&space, &chunk, round != 7, &mut Misses::default());
     }
 }
