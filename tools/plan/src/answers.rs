@@ -117,6 +117,7 @@ mod tests {
     use crate::rays::{Design, cast};
     use crate::traced::Traced;
     use pm_light::scene::{Camera, CameraOverrides, Scene};
+    use pm_light::transport::{PhotonPaths, Surfaces};
 
     #[test]
     fn many_numbers_of_neighbours_at_once_say_what_each_says_alone() {
@@ -129,11 +130,11 @@ mod tests {
             exponent: 0.0,
         };
         let materials: Vec<Material> = scene.materials.iter().map(plain).collect();
-        let mut traced = Traced::new(&scene, 3, false);
+        let mut traced = Traced::new(PhotonPaths::new(&scene, 3));
         let photons = traced.first(4000).expect("photons");
         let pixels: Vec<[u32; 2]> = (0..64).map(|at| [at * 8, 500 - at * 7]).collect();
         let design = Design { samples: 4, gathers: 2, light_samples: 1 };
-        let set = cast(&scene, camera, &pixels, design.soft(5, false));
+        let set = cast(&Surfaces::new(&scene), camera, &pixels, design.soft(5, false));
         let asking = Asking { materials: &materials, kernel: Kernel::Constant };
         let map = Map::build(photons, asking, &[5, 20, 80]).expect("a map");
         for (k, together) in [5, 20, 80].into_iter().zip(map.values(&set)) {

@@ -51,6 +51,6 @@ pub use model::{Model, Parts};
 pub use planning::{NoPlan, Plan, Tried, Untried, Wanted, plan};
 pub use recipe::{CAUSTICS_K, MOST_SEEN, PAPERS_MAP, Recipe};
 pub use survey::{Effort, Survey};
-pub use task::{PlanError, Task, is_large};
+pub use task::{Caustics, PlanError, Task, is_large};
 pub use times::Times;
 pub use traffic::{SearchBytes, Traffic, Trouble};

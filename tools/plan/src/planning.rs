@@ -127,7 +127,7 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
     let too_slow =
         |choice: &Choice, by_far: f64| model.times().of(&choice.recipe, task.pixels()) > by_far * wanted.seconds;
     if let Some(&choice) = best.first().filter(|best| too_slow(best, BY_FAR)) {
-        best = choose(&model, task.pixels(), wanted.error, 0.0, task.caustics);
+        best = choose(&model, task.pixels(), wanted.error, 0.0, task.most_caustics());
         if best.first().is_none_or(|hoped| too_slow(hoped, 1.0)) {
             return Ok(Err(NoPlan { model, untried: Some((choice, Untried::TooSlow)) }));
         }
@@ -209,7 +209,7 @@ fn surveyed(task: &Task<'_>, wanted: &Wanted, preview: &Preview) -> Result<(Mode
         let took = (task.clock)() - before;
         // The interval a trial will have, by and large: that of so many pixels.
         let margin = student_quantile(2.0 * wanted.surer() - 1.0, f64::from(effort.pixels) / 4.0);
-        let best = choose(&model, task.pixels(), wanted.error, margin, task.caustics);
+        let best = choose(&model, task.pixels(), wanted.error, margin, task.most_caustics());
         let takes = |choice: &Choice| model.times().of(&choice.recipe, task.pixels());
         let cost = best.first().map_or(f64::INFINITY, takes).min(wanted.seconds);
         // What was halved is made whole, and where it is extrapolated far beyond the largest map a larger one is traced, if that is
@@ -244,7 +244,7 @@ fn pixels_of_trials(task: &Task<'_>, effort: Effort, seconds: f64, recipe: &Reci
 fn chosen_again(task: &Task<'_>, wanted: &Wanted, evidence: &Evidence, last: &Recipe) -> Vec<Choice> {
     let judged = evidence.judge(last);
     let margin = judged.upper(wanted.surer()) / judged.value.max(f64::MIN_POSITIVE);
-    choose(&evidence.model(), task.pixels(), wanted.error / libm::sqrt(margin.max(1.0)), 0.0, task.caustics)
+    choose(&evidence.model(), task.pixels(), wanted.error / libm::sqrt(margin.max(1.0)), 0.0, task.most_caustics())
 }
 
 /// Who came next: another recipe, not the same with other eye rays.

@@ -64,7 +64,7 @@ fn blocks_side(pixels: f64) -> u32 {
 
 /// What is emitted along one eye ray of each block.
 fn emitted(task: &Task<'_>, [width, height]: [u32; 2], side: u32) -> Vec<[f64; 3]> {
-    let rays = GatherRays::new(task.scene, task.camera, Design::seen(1, task.seed_of(15, 0)));
+    let rays = GatherRays::new(task.surfaces.clone(), task.camera, Design::seen(1, task.seed_of(15, 0)));
     let middle = |block: u32, pixels: u32| (block * side + side / 2).min(pixels - 1);
     let mut seen = vec![];
     for row in 0..height.div_ceil(side) {

@@ -2,8 +2,10 @@
 
 use crate::replicates::Values;
 use pm_formats::Query;
-use pm_light::scene::{Camera, Scene};
-use pm_light::transport::{AtSpecular, GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata};
+use pm_light::scene::Camera;
+use pm_light::transport::{
+    AtSpecular, GatherOptions, GatherRays, Method, PixelCaster, RayCounts, Spread, Strata, Surfaces,
+};
 use pm_orders::VisiblePoints;
 
 /// What the rays of some pixels found.
@@ -51,8 +53,8 @@ impl Design {
 }
 
 /// Casts the rays of some pixels.
-pub(crate) fn cast(scene: &Scene, camera: Camera, pixels: &[[u32; 2]], options: GatherOptions) -> RaySet {
-    let rays = GatherRays::new(scene, camera, options);
+pub(crate) fn cast(surfaces: &Surfaces<'_>, camera: Camera, pixels: &[[u32; 2]], options: GatherOptions) -> RaySet {
+    let rays = GatherRays::new(surfaces.clone(), camera, options);
     let mut set = RaySet { light: vec![], queries: vec![], ends: vec![] };
     // Light seen by eye is told with direct light, and a picture of the points seen has it already.
     let lit = options.direct;

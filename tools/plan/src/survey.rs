@@ -9,11 +9,12 @@ use crate::preview::Preview;
 use crate::rays::{Design, RaySet, cast};
 use crate::recipe::{DESIGNS, MOST_SEEN, nth_design};
 use crate::replicates::{Values, Weights, mean, sum};
-use crate::task::{PlanError, Task};
+use crate::task::{Caustics, PlanError, Task};
 use crate::times::Times;
 use crate::traced::{Photons, Traced};
 use crate::traffic::Traffic;
 use pm_gathering::Kernel;
+use pm_light::transport::PhotonPaths;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
@@ -95,13 +96,13 @@ impl Survey {
         let pixels = &Pixels::choose(preview, effort.pixels, task.seed);
         let share = pixels.len() as f64 / task.pixels();
         let mut survey = Self { share, ..Self::default() };
-        let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(2, m), false));
+        let mut traced = [0, 1].map(|m| Traced::new(PhotonPaths::new(task.surfaces.clone(), task.seed_of(2, m))));
         let (soft, map) = Asked::soft(task, pixels, effort, &mut traced, &mut survey.times)?;
         if soft.sets[0].queries.is_empty() && soft.sets[0].light.iter().flatten().all(|&x| x == 0.0) {
             return Err(PlanError::NothingSeen);
         }
-        let caustics =
-            if task.caustics > 0 { Some(Asked::caustics(task, pixels, effort, &mut survey.times)?) } else { None };
+        let of_caustics = |light| Asked::caustics(task, light, pixels, effort, &mut survey.times);
+        let caustics = task.caustics.as_ref().map(of_caustics).transpose()?;
         let least_biased = |asked: &Asked| mean(asked.whole.iter().flatten().map(|by_k| &by_k[0]));
         let mut truth = sum(&mean(soft.sets.iter().map(|set| &set.light)), &least_biased(&soft));
         if let Some(caustics) = &caustics {
@@ -121,8 +122,9 @@ impl Survey {
     fn compare_rays(&mut self, task: &Task<'_>, pixels: &Pixels, map: &Map<'_>, weights: &Weights) {
         let pilot = |design: Design| {
             let start = (task.clock)();
-            let sets = [0, 1]
-                .map(|r| cast(task.scene, task.camera, &pixels.at, design.soft(task.seed_of(1, r), task.caustics > 0)));
+            let sets = [0, 1].map(|r| {
+                cast(&task.surfaces, task.camera, &pixels.at, design.soft(task.seed_of(1, r), task.caustics.is_some()))
+            });
             let seconds = (task.clock)() - start;
             let [a, b] = sets.map(|set| sum(&set.light, &map.values(&set).remove(0)));
             (weights.variance(&a, &b), seconds / (2 * pixels.len() as u32 * design.samples) as f64)
@@ -148,8 +150,8 @@ impl Asked {
         traced: &'a mut [Traced<'_>; 2],
         times: &mut Times,
     ) -> Result<(Self, Map<'a>), PlanError> {
-        let options = |r| PILOT.soft(task.seed_of(1, r), task.caustics > 0);
-        let sets = [0, 1].map(|r| cast(task.scene, task.camera, &pixels.at, options(r)));
+        let options = |r| PILOT.soft(task.seed_of(1, r), task.caustics.is_some());
+        let sets = [0, 1].map(|r| cast(&task.surfaces, task.camera, &pixels.at, options(r)));
         let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
         times.photon = timed_tracing(task, &mut traced[0], effort.photons, asking)?;
         times.of = effort.photons;
@@ -171,16 +173,21 @@ impl Asked {
         Ok((asked, map))
     }
 
-    fn caustics(task: &Task<'_>, pixels: &Pixels, effort: Effort, times: &mut Times) -> Result<Self, PlanError> {
+    fn caustics(
+        task: &Task<'_>,
+        light: &Caustics<'_>,
+        pixels: &Pixels,
+        effort: Effort,
+        times: &mut Times,
+    ) -> Result<Self, PlanError> {
         // Of a point's light all caustics come by one map: one eye ray in a pilot would tell, more are as in a picture.
         let options = |r| Design::seen(PILOT.samples, task.seed_of(3, r));
         let start = (task.clock)();
-        let sets = [0, 1].map(|r| cast(task.scene, task.camera, &pixels.at, options(r)));
+        let sets = [0, 1].map(|r| cast(&task.surfaces, task.camera, &pixels.at, options(r)));
         let cast_in = (task.clock)() - start;
-        let start = (task.clock)();
-        let mut traced = [0, 1].map(|m| Traced::new(task.scene, task.seed_of(4, m), true));
-        times.aiming = ((task.clock)() - start) / 2.0;
-        let most = task.caustics.min(MOST_CAUSTICS).min(effort.photons * 5 / 4);
+        let mut traced = [0, 1].map(|m| Traced::new(light.paths.with_seed(task.seed_of(4, m))));
+        times.aiming = light.aiming;
+        let most = light.most.min(MOST_CAUSTICS).min(effort.photons * 5 / 4);
         let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
         times.caustic = timed_tracing(task, &mut traced[0], most, asking)?;
         let (asked, map) = Self::ask(sets, asking, both(&mut traced, most)?, most, &[Times::CAUSTICS_K])?;

@@ -2,20 +2,21 @@
 
 use crate::traffic::{SearchBytes, Trouble};
 use pm_formats::Material;
-use pm_light::scene::{Camera, Scene};
+use pm_light::scene::Camera;
+use pm_light::transport::{PhotonPaths, Surfaces};
 use pm_maps::BuildError;
 use pm_random::Random;
 
 /// What is to be planned.
 pub struct Task<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
+    /// The scene, made ready for rays.
+    pub surfaces: Surfaces<'a>,
     /// From where it is seen.
     pub camera: Camera,
     /// What its surfaces are made of, as in a stream's header.
     pub materials: &'a [Material],
-    /// Photons of caustics there may be at most; 0 where there are no caustics.
-    pub caustics: u64,
+    /// Light that mirrors and glass focus; none where they do not.
+    pub caustics: Option<Caustics<'a>>,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Seconds of processor time so far.
@@ -26,7 +27,22 @@ pub struct Task<'a> {
     pub search_bytes: Option<&'a SearchBytes<'a>>,
 }
 
+/// Photons of light that mirrors and glass focus.
+pub struct Caustics<'a> {
+    /// So many of them are worth the paths they take, at most.
+    pub most: u64,
+    /// Their paths, aimed.
+    pub paths: PhotonPaths<'a>,
+    /// Seconds of processor time that a picture takes to aim them.
+    pub aiming: f64,
+}
+
 impl Task<'_> {
+    /// Photons of caustics there may be at most.
+    pub(crate) fn most_caustics(&self) -> u64 {
+        self.caustics.as_ref().map_or(0, |caustics| caustics.most)
+    }
+
     /// A seed for one of several uses.
     pub(crate) fn seed_of(&self, purpose: u64, number: u64) -> u64 {
         Random::new(&[self.seed, 0x706c_616e, purpose, number]).next_u64()

@@ -1,7 +1,6 @@
 //! Photons traced once, of which the first n of whole paths are a map of their own.
 
 use pm_formats::Photon;
-use pm_light::scene::Scene;
 use pm_light::transport::PhotonPaths;
 
 /// Photons of the paths of one seed, as many as were asked for so far.
@@ -23,9 +22,8 @@ pub(crate) struct Photons<'a> {
 const PATIENCE: usize = 1 << 20;
 
 impl<'a> Traced<'a> {
-    /// None yet, of all photons or of caustics alone.
-    pub(crate) fn new(scene: &'a Scene, seed: u64, caustics: bool) -> Self {
-        let paths = if caustics { PhotonPaths::of_caustics(scene, seed) } else { PhotonPaths::new(scene, seed) };
+    /// None yet.
+    pub(crate) const fn new(paths: PhotonPaths<'a>) -> Self {
         Self { paths, photons: vec![], ends: vec![] }
     }
 
@@ -74,14 +72,15 @@ impl<'a> Traced<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pm_light::scene::Scene;
 
     #[test]
     fn the_first_of_many_are_what_a_smaller_trace_gives() {
         let scene = Scene::embedded();
-        let mut many = Traced::new(&scene, 5, false);
+        let mut many = Traced::new(PhotonPaths::new(&scene, 5));
         let all = many.first(3000).map(|found| (found.photons.len(), found.emitted)).unwrap();
         let few = many.first(500).map(|found| (found.photons.to_vec(), found.emitted)).unwrap();
-        let mut afresh = Traced::new(&scene, 5, false);
+        let mut afresh = Traced::new(PhotonPaths::new(&scene, 5));
         let same = afresh.first(500).unwrap();
         assert!(few.0 == same.photons && few.1 == same.emitted);
         assert!(all.0 >= 3000 && all.1 > few.1 && few.0.len() >= 500);

@@ -8,10 +8,11 @@ use crate::rays::{Design, cast};
 use crate::recipe::Recipe;
 use crate::replicates::{Values, Weights, mean, sum};
 use crate::survey::KS;
-use crate::task::{PlanError, Task};
+use crate::task::{Caustics, PlanError, Task};
 use crate::times::Times;
 use crate::traced::Traced;
 use pm_gathering::Kernel;
+use pm_light::transport::PhotonPaths;
 use pm_sampling::Spread;
 
 /// What a trial found.
@@ -73,9 +74,9 @@ impl Trial {
         let soft = |r: u64| -> Result<Replicate, PlanError> {
             let Recipe { samples, gathers, light_samples, .. } = *recipe;
             let design = Design { samples, gathers, light_samples };
-            let options = design.soft(task.seed_of(7 + r, round), task.caustics > 0);
-            let set = cast(task.scene, task.camera, &pixels.at, options);
-            let mut traced = Traced::new(task.scene, task.seed_of(9 + r, round), false);
+            let options = design.soft(task.seed_of(7 + r, round), task.caustics.is_some());
+            let set = cast(&task.surfaces, task.camera, &pixels.at, options);
+            let mut traced = Traced::new(PhotonPaths::new(task.surfaces.clone(), task.seed_of(9 + r, round)));
             let asking = Asking { materials: task.materials, kernel: Kernel::Constant };
             let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
                 let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, asking, &[k])?;
@@ -83,10 +84,10 @@ impl Trial {
             };
             Ok(Replicate { pixels: ask(recipe.photons, recipe.k)?, sharp: ask(more, finer)? })
         };
-        let caustics = |r: u64| -> Result<Replicate, PlanError> {
+        let caustics = |light: &Caustics<'_>, r: u64| -> Result<Replicate, PlanError> {
             let set =
-                cast(task.scene, task.camera, &pixels.at, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
-            let mut traced = Traced::new(task.scene, task.seed_of(13 + r, round), true);
+                cast(&task.surfaces, task.camera, &pixels.at, Design::seen(recipe.seen(), task.seed_of(11 + r, round)));
+            let mut traced = Traced::new(light.paths.with_seed(task.seed_of(13 + r, round)));
             let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
             let mut ask = |n: u64, k: u32| -> Result<Values, PlanError> {
                 let map = Map::build(traced.first(n).ok_or(PlanError::Dark)?, asking, &[k])?;
@@ -101,10 +102,10 @@ impl Trial {
         let mut both = [0, 1].map(|_| Replicate::default());
         for (one, r) in both.iter_mut().zip(0..) {
             let found = soft(r)?.extrapolated(soft_blur);
-            *one = match &survey.caustics {
-                Some(layer) if recipe.caustics > 0 => {
+            *one = match (&survey.caustics, &task.caustics) {
+                (Some(layer), Some(light)) if recipe.caustics > 0 => {
                     let blur = layer.bias.extrapolation(4.0, 1.0);
-                    found.plus(&caustics(r)?.extrapolated(blur))
+                    found.plus(&caustics(light, r)?.extrapolated(blur))
                 }
                 _ => found,
             };

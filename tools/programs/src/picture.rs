@@ -9,6 +9,7 @@ use crate::cli::{Program, Typed, create_output, picture_format, usage};
 use anyhow::{Context as _, bail};
 pub use args::Args;
 use clap::CommandFactory as _;
+use pm_light::transport::Surfaces;
 use recipe::Recipe;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -28,7 +29,7 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
     // What there is to say of the scene is said by the first program that loads it.
     let loaded = args.scene.load(&args.hushed())?;
     args.scene.camera(&loaded, &args.camera, &args.hushed())?;
-    let caustics = caustics::photons(&loaded, args.caustics, args.seed);
+    let caustics = caustics::found(&Surfaces::new(&loaded), args.caustics, args.seed).map_or(0, |(photons, _)| photons);
     drop(loaded);
 
     let temporary = match (&args.keep, args.dry_run) {

@@ -9,7 +9,6 @@ use super::reflection::{Reflection, Spread};
 use super::roulette::patience;
 use super::scatter::{choose, specular, spread_shares};
 use super::surface::{SurfacePoint, Surfaces};
-use crate::scene::Scene;
 use glam::Vec3;
 use pm_random::Random;
 
@@ -49,8 +48,8 @@ pub(super) struct PathRandom {
 }
 
 impl<'a> GatherPaths<'a> {
-    pub(super) fn new(scene: &'a Scene, options: GatherOptions) -> Self {
-        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), options }
+    pub(super) fn new(surfaces: Surfaces<'a>, options: GatherOptions) -> Self {
+        Self { lights: Lights::new(surfaces.scene), surfaces, options }
     }
 
     /// Casts one gather ray of this weight from a point, and one bounce further if it is too short. A lamp met counts by its

@@ -12,7 +12,8 @@ use super::query::query_at;
 use super::ray_counts::RayCounts;
 use super::reflection::Reflection;
 use super::strata::{Strata, StrataGrid};
-use crate::scene::{Camera, Material, Scene};
+use super::surface::Surfaces;
+use crate::scene::{Camera, Material};
 use glam::Vec3;
 use pm_formats::{Photon, Query};
 use pm_random::Random;
@@ -28,11 +29,11 @@ pub struct GatherRays<'a> {
 }
 
 impl<'a> GatherRays<'a> {
-    /// Rays of a picture of `scene`.
+    /// Rays of a picture of a scene, which may have been made ready for rays before.
     #[must_use]
-    pub fn new(scene: &'a Scene, camera: Camera, options: GatherOptions) -> Self {
+    pub fn new(scene: impl Into<Surfaces<'a>>, camera: Camera, options: GatherOptions) -> Self {
         let eye = Eye { camera, seed: options.seed, samples: options.samples.max(1) };
-        let paths = GatherPaths::new(scene, options);
+        let paths = GatherPaths::new(scene.into(), options);
         Self { paths, options, strata: StrataGrid::new(options.gathers), eye, guide: None }
     }
 

@@ -11,10 +11,10 @@ use super::roulette::{patience, survive};
 use super::sampling::cosine_direction;
 use super::scatter::{specular, spread_shares, spreads};
 use super::surface::Surfaces;
-use crate::scene::Scene;
 use glam::Vec3;
 use pm_formats::Photon;
 use pm_random::Random;
+use std::sync::Arc;
 
 /// A photon as a path stores it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,10 +34,10 @@ pub struct PathPhoton {
 /// Paths of photons through a scene.
 pub struct PhotonPaths<'a> {
     surfaces: Surfaces<'a>,
-    lights: Lights,
+    lights: Arc<Lights>,
     seed: u64,
     /// Where lamps shine, if only caustics are wanted.
-    aim: Option<Aim>,
+    aim: Option<Arc<Aim>>,
 }
 
 /// How a path begins.
@@ -54,16 +54,17 @@ struct Start {
 const PILOT: u64 = 1 << 17;
 
 impl<'a> PhotonPaths<'a> {
-    /// Paths through `scene`, a different set for each seed.
+    /// Paths through a scene, which may have been made ready for rays before; a different set for each seed.
     #[must_use]
-    pub fn new(scene: &'a Scene, seed: u64) -> Self {
-        Self { surfaces: Surfaces::new(scene), lights: Lights::new(scene), seed, aim: None }
+    pub fn new(scene: impl Into<Surfaces<'a>>, seed: u64) -> Self {
+        let surfaces = scene.into();
+        Self { lights: Arc::new(Lights::new(surfaces.scene)), surfaces, seed, aim: None }
     }
 
     /// The same, of caustics alone: lamps shine mostly to where mirrors and glass are, and with as much less power for it. A
     /// pilot with random numbers of its own shows where that is.
     #[must_use]
-    pub fn of_caustics(scene: &'a Scene, seed: u64) -> Self {
+    pub fn of_caustics(scene: impl Into<Surfaces<'a>>, seed: u64) -> Self {
         let paths = Self::new(scene, seed);
         let mut found = vec![];
         for path in 0..if paths.lights.is_empty() { 0 } else { PILOT } {
@@ -77,7 +78,15 @@ impl<'a> PhotonPaths<'a> {
             }
         }
         let aim = Aim::new(paths.lights.shares(), &found);
-        Self { aim: Some(aim), ..paths }
+        Self { aim: Some(Arc::new(aim)), ..paths }
+    }
+
+    /// Others of the same kind, by another seed. Those of caustics are aimed as these are: how well that is done says how noisy
+    /// they are, not what they say on average.
+    #[must_use]
+    pub fn with_seed(&self, seed: u64) -> Self {
+        let Self { surfaces, lights, aim, .. } = self;
+        Self { surfaces: surfaces.clone(), lights: Arc::clone(lights), seed, aim: aim.clone() }
     }
 
     /// Follows path number `path` and gives each photon it stores to `store`, in order.

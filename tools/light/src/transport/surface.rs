@@ -3,13 +3,25 @@
 use super::bvh::{Bvh, RayCaster};
 use crate::scene::{Material, Scene};
 use glam::Vec3;
+use std::sync::Arc;
 
-/// A scene made ready for rays.
+/// A scene made ready for rays. Copies share what was built.
+#[derive(Clone)]
 pub struct Surfaces<'a> {
     /// What is lit.
     pub scene: &'a Scene,
+    built: Arc<Built>,
+}
+
+struct Built {
     bvh: Bvh,
     normals: Vec<Vec3>,
+}
+
+impl<'a> From<&'a Scene> for Surfaces<'a> {
+    fn from(scene: &'a Scene) -> Self {
+        Self::new(scene)
+    }
 }
 
 /// A point where a ray met a surface.
@@ -40,19 +52,19 @@ impl<'a> Surfaces<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
         let normals = (0..scene.triangle_count()).map(|i| scene.geometric_normal(i)).collect();
-        Self { scene, bvh: Bvh::build(scene), normals }
+        Self { scene, built: Arc::new(Built { bvh: Bvh::build(scene), normals }) }
     }
 
     /// The first surface that a ray meets.
     #[must_use]
     pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        let hit = self.bvh.closest(origin, direction, f32::INFINITY)?;
+        let hit = self.built.bvh.closest(origin, direction, f32::INFINITY)?;
         let index = hit.triangle as usize;
         let [a, b, c] = self.scene.triangle(index);
         let (ab, ac) = (b - a, c - a);
         // From the corners and not along the ray: coordinates that the corners share stay exact.
         let position = a + ab * hit.u + ac * hit.v;
-        let front = self.normals[index];
+        let front = self.built.normals[index];
         let smooth = match self.scene.corner_normals(index) {
             Some([na, nb, nc]) => (na * (1.0 - hit.u - hit.v) + nb * hit.u + nc * hit.v).normalize_or(front),
             None => front,
@@ -71,7 +83,7 @@ impl<'a> Surfaces<'a> {
     /// Is the way between two points blocked?
     #[must_use]
     pub fn blocked(&self, from: Vec3, to: Vec3) -> bool {
-        self.bvh.blocked(from, to)
+        self.built.bvh.blocked(from, to)
     }
 
     /// What a point's surface is made of.
@@ -87,7 +99,7 @@ impl<'a> Surfaces<'a> {
         let (ab, ac) = (b - a, c - a);
         let position = a + ab * u + ac * v;
         let margin = MARGIN * (position.abs().max_element() + ab.abs().max(ac.abs()).max_element());
-        (position + self.normals[triangle] * margin, self.normals[triangle])
+        (position + self.built.normals[triangle] * margin, self.built.normals[triangle])
     }
 }
 
