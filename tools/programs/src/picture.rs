@@ -6,6 +6,7 @@ mod recipe;
 
 use crate::asked::Asked;
 use crate::cli::{Program, Typed, create_output, picture_format, usage};
+use crate::pipe::Pipe;
 use anyhow::{Context as _, bail};
 pub use args::Args;
 use clap::CommandFactory as _;
@@ -41,7 +42,8 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
     if !args.dry_run {
         std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
-    for pipe in (Recipe { args: &args, scene, camera, folder, caustics }).pipes() {
+    let recipe = Recipe { args: &args, scene, camera, folder, caustics };
+    for pipe in recipe.maps().into_iter().chain(recipe.gathers()) {
         if !args.common.quiet {
             // Each before it runs: it is what a long wait is for.
             let mut output = create_output(Path::new("-"))?;
@@ -53,6 +55,17 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
         }
     }
     Ok(())
+}
+
+/// The pipes that make a picture once its photon maps are in `folder`, where as many photons of caustics were found as were asked for.
+///
+/// # Errors
+/// If it is asked wrongly.
+pub(crate) fn gathers(asked: impl IntoIterator<Item = String>, folder: PathBuf) -> anyhow::Result<Vec<Pipe>> {
+    let words = std::iter::once("pm-picture".to_owned()).chain(asked);
+    let Asked { args, scene, camera } = Asked::<Args>::read(&Args::command().try_get_matches_from(words)?)?;
+    let caustics = args.caustics;
+    Ok(Recipe { args: &args, scene, camera, folder, caustics }.gathers())
 }
 
 /// Refuses what would fail at the end of a long wait.

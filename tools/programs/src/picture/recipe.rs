@@ -19,26 +19,31 @@ pub(super) struct Recipe<'a> {
 }
 
 impl Recipe<'_> {
-    /// All pipes, each to be run when those before it are done.
-    pub(super) fn pipes(&self) -> Vec<Pipe> {
+    /// Pipes that make the photon maps.
+    pub(super) fn maps(&self) -> Vec<Pipe> {
         let mut pipes = vec![self.photons("map.pmp", self.args.photons, &[])];
+        pipes.extend((self.caustics > 0).then(|| self.photons("caustics.pmp", self.caustics, &["--caustics"])));
+        pipes
+    }
+
+    /// Pipes that make the picture of them, each to be run when those before it are done.
+    pub(super) fn gathers(&self) -> Vec<Pipe> {
         let (map, base) = (self.file("map.pmp"), self.file("direct.exr"));
         let further: Vec<&str> = further(&self.args.gather).collect();
         if self.caustics > 0 {
             let soft = self.file("soft.exr");
-            let caustics = self.photons("caustics.pmp", self.caustics, &["--caustics"]);
             let seen = self.queries(self.args.samples.min(MOST_SEEN), &["--direct-visualisation"]);
             let sharp = self.gather("caustics.pmp", self.args.caustics_k.unwrap_or(CAUSTICS_K), &["--base", &soft]);
             let gathered =
                 self.gather("map.pmp", self.args.k, &[&further[..], &["--base", &base, "--image", &soft]].concat());
-            pipes.push(caustics);
-            pipes.push(self.soft(&map, &base, &["--no-caustics"]).then("pm-gather", gathered));
-            pipes.push(seen.then("pm-gather", sharp.into_iter().chain(self.images())));
+            vec![
+                self.soft(&map, &base, &["--no-caustics"]).then("pm-gather", gathered),
+                seen.then("pm-gather", sharp.into_iter().chain(self.images())),
+            ]
         } else {
             let gathered = self.gather("map.pmp", self.args.k, &[&further[..], &["--base", &base]].concat());
-            pipes.push(self.soft(&map, &base, &[]).then("pm-gather", gathered.into_iter().chain(self.images())));
+            vec![self.soft(&map, &base, &[]).then("pm-gather", gathered.into_iter().chain(self.images()))]
         }
-        pipes
     }
 
     /// Photons to a file. The first of the programs, and the only one to say what is odd about the scene.

@@ -30,11 +30,11 @@ pub(super) fn measure(pilots: &Pilots<'_>, recipe: &Recipe) -> anyhow::Result<Es
     let samples = Recipe::grid(f64::from(recipe.samples) * f64::from(BETTER)).unwrap_or(recipe.samples);
     let better = Recipe { samples, photons: more(recipe.photons), caustics: more(recipe.caustics), ..*recipe };
     let good = path("good.exr");
-    pilots.small(&better, size, FIRST_SEED, &good)?;
+    pilots.small(&better, size, FIRST_SEED, &good).run()?;
     let mut found = vec![];
     for picture in 1..=PICTURES {
         let one = path("one.exr");
-        pilots.small(recipe, size, FIRST_SEED + picture, &one)?;
+        pilots.small(recipe, size, FIRST_SEED + picture, &one).run()?;
         let words = ["-q", &good, &one, "--format", "csv"].map(str::to_owned);
         let sheet = Sheet::parse("pm-view", &Pipe::new("pm-view", words).run()?)?;
         let row = sheet.rows().first().context("pm-view has printed no row")?;
