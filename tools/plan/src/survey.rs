@@ -187,7 +187,8 @@ impl Asked {
         let cast_in = (task.clock)() - start;
         let mut traced = [0, 1].map(|m| Traced::new(light.paths.with_seed(task.seed_of(4, m))));
         times.aiming = light.aiming;
-        let most = light.most.min(MOST_CAUSTICS).min(effort.photons * 5 / 4);
+        let most =
+            light.most.min(if task.is_large() { MOST_BESIDE } else { MOST_CAUSTICS }).min(effort.photons * 5 / 4);
         let asking = Asking { materials: task.materials, kernel: Kernel::Cone };
         times.caustic = timed_tracing(task, &mut traced[0], most, asking)?;
         let (asked, map) = Self::ask(sets, asking, both(&mut traced, most)?, most, &[Times::CAUSTICS_K])?;
@@ -254,6 +255,8 @@ impl Asked {
 
 /// Photons of caustics that are traced in a survey at most.
 const MOST_CAUSTICS: u64 = 200_000;
+/// The same beside a large picture: each takes as long as several others.
+const MOST_BESIDE: u64 = 50_000;
 
 /// Both with at least so many photons.
 fn both<'a, 'b>(traced: &'a mut [Traced<'b>; 2], most: u64) -> Result<&'a [Traced<'b>; 2], PlanError> {

@@ -97,14 +97,15 @@ impl Trial {
             Ok(Replicate { pixels: ask(recipe.caustics, Times::CAUSTICS_K)?, sharp: ask(more, finer)? })
         };
         let survey = &model.survey;
-        let share = f64::from(finer) / more as f64;
-        let soft_blur = survey.soft.bias.extrapolation(recipe.share(), share);
+        let share = |(photons, k): (u64, u32)| f64::from(k) / photons as f64;
+        let soft_blur = survey.soft.bias.extrapolation(recipe.share(), share((more, finer)));
         let mut both = [0, 1].map(|_| Replicate::default());
         for (one, r) in both.iter_mut().zip(0..) {
             let found = soft(r)?.extrapolated(soft_blur);
             *one = match (&survey.caustics, &task.caustics) {
                 (Some(layer), Some(light)) if recipe.caustics > 0 => {
-                    let blur = layer.bias.extrapolation(4.0, 1.0);
+                    let whole = share((recipe.caustics, Times::CAUSTICS_K));
+                    let blur = layer.bias.extrapolation(whole, share(finer_caustics));
                     found.plus(&caustics(light, r)?.extrapolated(blur))
                 }
                 _ => found,
@@ -136,11 +137,13 @@ impl Trial {
 
 /// Photons and neighbours that blur less: of all photons, and of caustics.
 ///
-/// Beside a large picture whole traces of four times the photons would be dear. Half the neighbours of twice the photons lie within as
-/// small a radius.
+/// Beside a large picture whole traces of four times the photons would be dear, most of all of caustics, each of which takes as long
+/// as several others: there half the neighbours have to do.
 fn sharper(recipe: &Recipe, large: bool) -> [(u64, u32); 2] {
-    let (times, halves, most) = if large { (2, 2, MOST_BESIDE) } else { (4, 1, MOST_REFERENCE) };
+    let (times, most) = if large { (2, MOST_BESIDE) } else { (4, MOST_REFERENCE) };
     let more = (times * recipe.photons).min(most).max(recipe.photons);
     let finer = if recipe.k > KS[0] || more > recipe.photons { KS[0].min(recipe.k) } else { recipe.k - 2 };
-    [(more, finer), (times * recipe.caustics, Times::CAUSTICS_K / halves)]
+    let of_caustics =
+        if large { (recipe.caustics, Times::CAUSTICS_K / 2) } else { (times * recipe.caustics, Times::CAUSTICS_K) };
+    [(more, finer), of_caustics]
 }

@@ -57,14 +57,17 @@ pub fn run(Asked { args, scene, camera }: Asked<Args>, _: &Typed) -> anyhow::Res
     Ok(())
 }
 
-/// The pipes that make a picture once its photon maps are in `folder`, where as many photons of caustics were found as were asked for.
+/// The pipes that make a picture once its photon maps are in `folder`, of which one has so many photons of caustics, or 0: there is none.
 ///
 /// # Errors
 /// If it is asked wrongly.
-pub(crate) fn gathers(asked: impl IntoIterator<Item = String>, folder: PathBuf) -> anyhow::Result<Vec<Pipe>> {
+pub(crate) fn gathers(
+    asked: impl IntoIterator<Item = String>,
+    caustics: u64,
+    folder: PathBuf,
+) -> anyhow::Result<Vec<Pipe>> {
     let words = std::iter::once("pm-picture".to_owned()).chain(asked);
     let Asked { args, scene, camera } = Asked::<Args>::read(&Args::command().try_get_matches_from(words)?)?;
-    let caustics = args.caustics;
     Ok(Recipe { args: &args, scene, camera, folder, caustics }.gathers())
 }
 

@@ -25,6 +25,8 @@ pub(super) struct Time {
 
 /// Small pictures of the same size, and the share of the planned one that each is, unless that is soon done.
 const PICTURES: u32 = 4;
+/// The same beside a large picture.
+const FEWER: u32 = 3;
 const SHARE: f64 = 0.003;
 /// Seconds that a small picture shall take: less is measured badly. Where the picture is large its pixels take about as much as any
 /// of its parts, and half does.
@@ -65,13 +67,13 @@ impl Pilots<'_> {
         let whole = seconds(&|| whole.run().map(drop))?;
         let gathered = |size: [u32; 2], number: u32| {
             let asked = self.small_words(recipe, size, number.into(), &image);
-            let pipes = picture::gathers(asked, folder.to_owned())?;
+            let pipes = picture::gathers(asked, recipe.caustics, folder.to_owned())?;
             seconds(&|| pipes.iter().try_for_each(|pipe| pipe.run().map(drop)))
         };
         let before = gathered(tiny, 0)?;
         let mut pilots = whole + before;
         let mut slopes = vec![];
-        for number in 1..=PICTURES {
+        for number in 1..=if is_large(pixels) { FEWER } else { PICTURES } {
             let one = gathered(small, number)?;
             pilots += one;
             slopes.push(((one - before) / (of(small) - of(tiny)).max(1.0)).max(0.0));
