@@ -106,7 +106,7 @@ fn shadow_rays_and_gather_rays_share_the_light_of_lamps_small_and_close() {
     let options = GatherOptions { light_samples: 2, gathers: 3, ..OPTIONS };
     for half_side in [0.002, 0.05, 0.5, 5.0] {
         let scene = below_a_lamp(MATT, half_side);
-        let paths = GatherPaths::new(&scene, options);
+        let paths = GatherPaths::new((&scene).into(), options);
         let techniques = Techniques { shadow: 2, gather: 3 };
         let [mean, error, deviation] = measure(&scene, Vec3::Y, |surfaces, lights, point, reflection, random| {
             let mut sum = direct_light(surfaces, lights, point, reflection, techniques, random);
