@@ -38,10 +38,14 @@ const CAUSTICS: u64 = 6_250;
 /// by which time is measured.
 const TRACED: f64 = 10.0;
 
+/// Seconds that differ by less are alike: they were measured on a few pixels, beside other work. Of such recipes the one with the fewest
+/// photons is taken, which needs the least memory and fetches the least of it.
+const ALIKE: f64 = 1.1;
+
 /// The cheapest recipe whose error is at most `error` even at the upper bound of its interval, `errors` standard errors off; all
-/// that were looked at, cheapest first, one for each combination of all but the eye rays. `caustics` is the most photons of
-/// caustics there may be. Of a large picture, what counts is what it costs until it is there: photons are traced by planning too,
-/// however few pixels that makes.
+/// that were looked at, one for each combination of all but the eye rays: first those that cost about as much as the cheapest, by
+/// their photons, then the others, by their cost. `caustics` is the most photons of caustics there may be. Of a large picture, what
+/// counts is what it costs until it is there: photons are traced by planning too, however few pixels that makes.
 #[must_use]
 pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64) -> Vec<Choice> {
     let mut found: Vec<Choice> =
@@ -49,6 +53,11 @@ pub fn choose(model: &Model, pixels: f64, error: f64, errors: f64, caustics: u64
     let traced = if is_large(pixels) { TRACED } else { 0.0 };
     let with_planning = |choice: &Choice| choice.cost + traced * model.cost(&choice.recipe, 0.0);
     found.sort_by(|a, b| with_planning(a).total_cmp(&with_planning(b)));
+    // Bytes are what they are.
+    let by_time = model.fetched(&Recipe::default(), pixels).is_none();
+    let least = found.first().map_or(0.0, with_planning);
+    let alike = found.partition_point(|choice| by_time && with_planning(choice) <= ALIKE * least);
+    found[..alike].sort_by_key(|choice| choice.recipe.photons);
     found
 }
 

@@ -1,7 +1,7 @@
 //! What is chosen among: the numbers of a picture's recipe.
 
 /// The numbers of a recipe, as `pm-picture` takes them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Recipe {
     /// Eye rays for each pixel.
     pub samples: u32,
