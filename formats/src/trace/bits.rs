@@ -3,37 +3,55 @@
 /// Bits, least significant first within each byte.
 #[derive(Default)]
 pub(super) struct BitWriter {
-    pub(super) bytes: Vec<u8>,
+    /// Whole bytes, and room behind them.
+    bytes: Vec<u8>,
+    len: usize,
     pending: u64,
-    pub(super) count: u32,
+    /// Bits that are pending: less than a byte.
+    count: u32,
 }
 
 impl BitWriter {
-    #[inline]
-    pub(super) fn push(&mut self, bit: bool) {
-        self.pending |= u64::from(bit) << self.count;
-        self.count += 1;
-        if self.count == 64 {
-            self.bytes.extend_from_slice(&self.pending.to_le_bytes());
-            (self.pending, self.count) = (0, 0);
+    /// Makes room for so many bits, and for the word in which the last of them are written.
+    pub(super) fn make_room(&mut self, bits: usize) {
+        let least = self.len + bits / 8 + 2 * size_of::<u64>();
+        if self.bytes.len() < least {
+            self.bytes.resize(least.max(2 * self.bytes.len()), 0);
         }
+    }
+
+    /// So many bits, at most 56, the first of which is the lowest; above them are zeros. There is [room](Self::make_room) for them.
+    ///
+    /// How many bytes are whole is anyone's guess, so eight are written and those that are count: no branch.
+    #[inline]
+    pub(super) fn push_all(&mut self, bits: u64, count: u32) {
+        debug_assert!(count <= 56 && bits >> count == 0);
+        self.pending |= bits << self.count;
+        self.count += count;
+        self.bytes[self.len..][..size_of::<u64>()].copy_from_slice(&self.pending.to_le_bytes());
+        self.len += self.count as usize / 8;
+        self.pending >>= self.count & !7;
+        self.count %= 8;
     }
 
     /// Fills the last byte with zeros.
     pub(super) fn align(&mut self) {
-        let whole = self.count.div_ceil(8) as usize;
-        self.bytes.extend_from_slice(&self.pending.to_le_bytes()[..whole]);
-        (self.pending, self.count) = (0, 0);
+        self.make_room(8);
+        self.push_all(0, (8 - self.count) % 8);
     }
 
-    /// Forgets all bits since the writer was aligned at `len` bytes.
+    /// All bytes, if the last is filled.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes[..self.len]
+    }
+
+    /// Forgets all bits since.
     pub(super) fn rewind(&mut self, (len, pending, count): (usize, u64, u32)) {
-        self.bytes.truncate(len);
-        (self.pending, self.count) = (pending, count);
+        (self.len, self.pending, self.count) = (len, pending, count);
     }
 
     pub(super) fn mark(&self) -> (usize, u64, u32) {
-        (self.bytes.len(), self.pending, self.count)
+        (self.len, self.pending, self.count)
     }
 }
 

@@ -83,7 +83,7 @@ impl<'a> BlockEncoder<'a> {
         let current = &mut self.current;
         current.segments = 0;
         current.heads.clear();
-        current.walks_from = self.walks.bytes.len();
+        current.walks_from = self.walks.bytes().len();
         current.others_from = self.others.len();
         current.last = 0;
         current.run = None;
@@ -252,7 +252,7 @@ impl<'a> BlockEncoder<'a> {
         scratch.extend_from_slice(&(self.current.pixels.len() as u64).to_le_bytes());
         self.current.pixels.iter().for_each(|pixel| scratch.extend_from_slice(&pixel.to_le_bytes()));
         scratch.extend_from_slice(&self.heads[from..]);
-        scratch.extend_from_slice(&self.walks.bytes[self.current.walks_from..]);
+        scratch.extend_from_slice(&self.walks.bytes()[self.current.walks_from..]);
         scratch.extend_from_slice(&self.others[self.current.others_from..]);
         self.tally.count(scratch);
     }
@@ -271,7 +271,7 @@ impl<'a> BlockEncoder<'a> {
         if self.longest > MAX_ACCESS {
             return Err(Error::Invalid(format!("an access of {} bytes; the most is {MAX_ACCESS}", self.longest)));
         }
-        let planes = [&self.heads, &self.destinations, &self.walks.bytes, &self.others];
+        let planes = [&self.heads[..], &self.destinations, self.walks.bytes(), &self.others];
         let mut payload = Vec::with_capacity(12 + planes.iter().map(|plane| plane.len()).sum::<usize>());
         for plane in &planes[..3] {
             let len = u32::try_from(plane.len()).map_err(|_| Error::Invalid("too many searches in a block".into()))?;

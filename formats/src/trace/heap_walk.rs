@@ -22,46 +22,116 @@ pub(super) fn encode(visited: &[u32], nodes: u32, bits: &mut BitWriter) -> Optio
     walk
 }
 
+/// As [`decode`], the loop is over the lowest three levels of the tree, whose bits are arithmetic on seven visits. The way back up
+/// from there ends at the level of the visit that comes next: what is undecided below that level is zeros.
 fn encode_walk(visited: &[u32], nodes: u32, bits: &mut BitWriter) -> Option<usize> {
-    // Second children, not yet decided upon, of the nodes above.
-    let mut others = [0u32; MAX_DEPTH];
-    let mut depth = 0;
-    let number = |at: usize| visited.get(at).map_or(0, |index| index.wrapping_add(1));
-    let mut node = number(0);
-    if node != 1 || nodes == 0 || nodes > MAX_NODES {
+    let walk = Visited(visited);
+    if walk.number(0) != 1 || nodes == 0 || nodes > MAX_NODES {
         return None;
     }
-    let mut at = 0;
+    // Whether the sibling of the node above or at this one at each level is not yet decided upon, a bit each; and if it is not, of how
+    // many levels above it that is so.
+    let (mut undecided, mut above) = (0u32, [0u32; MAX_DEPTH]);
+    let (mut node, mut level, mut at, mut depth) = (1u32, 0, 0, 0);
+    bits.make_room(2 * visited.len() + MAX_DEPTH);
     loop {
-        let (left, next) = (2 * node, number(at + 1));
-        if left < nodes {
-            // Two children: one of them comes next, whatever the search is after.
-            if next & !1 != left {
+        // Down to the lowest three levels: one of two children comes next, whatever the search is after.
+        let (mut firsts, from) = (0u64, depth);
+        while node <= nodes / 8 {
+            let next = walk.number(at + 1);
+            if next >> 1 != node {
                 return None;
             }
-            bits.push(next != left);
-            others[depth] = next ^ 1;
+            firsts |= u64::from(next & 1) << (depth - from);
+            level += 1;
+            undecided |= 1 << level;
+            above[level % MAX_DEPTH] = depth;
             depth += 1;
-        } else if left == nodes {
-            bits.push(next == left);
+            (node, at) = (next, at + 1);
         }
-        at += 1;
-        if left < nodes || (left == nodes && next == left) {
-            node = next;
-            continue;
-        }
-        loop {
-            if depth == 0 {
-                return Some(at);
+        match visited.get(at..).and_then(<[u32]>::first_chunk) {
+            Some(visits) if 4 * node + 3 <= nodes => {
+                let lowest = encode_lowest(visits)?;
+                bits.push_all(firsts | lowest.bits << (depth - from), depth - from + lowest.count);
+                at += lowest.visits;
             }
-            depth -= 1;
-            let taken = others[depth] == next;
-            bits.push(taken);
-            if taken {
-                node = next;
-                break;
+            _ => {
+                bits.push_all(firsts, depth - from);
+                at = walk.encode_below(node, nodes, at, bits)?;
             }
         }
+        // Back up, until a second child is visited too.
+        let next = walk.number(at);
+        let to = (next | 1).ilog2();
+        let is_second = undecided >> to & 1 == 1 && node >> (level as u32).saturating_sub(to) ^ 1 == next;
+        if !is_second {
+            bits.push_all(0, depth);
+            return Some(at);
+        }
+        level = to as usize;
+        let left = above[level % MAX_DEPTH];
+        let below = depth - left - 1;
+        bits.push_all(1 << below, below + 1);
+        undecided &= (1 << to) - 1;
+        (node, depth) = (next, left);
+    }
+}
+
+/// The visits of and below a node that has four grandchildren and no more.
+struct OfLowest {
+    visits: usize,
+    bits: u64,
+    count: u32,
+}
+
+/// Codes those that come first of these; `None` if they are no walk.
+#[inline]
+fn encode_lowest(visits: &[u32; Lowest::MOST]) -> Option<OfLowest> {
+    // How many there are depends on the data, so it is arithmetic and not a branch.
+    let number = |at: usize| visits[at % Lowest::MOST].wrapping_add(1);
+    let (child, grandchild) = (number(1), number(2));
+    let both = u32::from(number(3) == grandchild ^ 1);
+    let at = 3 + both as usize;
+    let (other, below_other) = (number(at), number(at + 1));
+    let second = u32::from(other == child ^ 1);
+    let both_of_other = second & u32::from(number(at + 2) == below_other ^ 1);
+    if (child >> 1 ^ number(0)) | (grandchild >> 1 ^ child) | (second * (below_other >> 1 ^ other)) != 0 {
+        return None;
+    }
+    let of_first = child & 1 | (grandchild & 1) << 1 | both << 2;
+    let of_other = second << 3 | (second & below_other) << 4 | both_of_other << 5;
+    let visits = at + (2 * second + both_of_other) as usize;
+    Some(OfLowest { visits, bits: u64::from(of_first | of_other), count: 4 + 2 * second })
+}
+
+/// Visits that may be a walk.
+struct Visited<'a>(&'a [u32]);
+
+impl Visited<'_> {
+    /// The node of a visit; behind the last, 0.
+    #[inline]
+    fn number(&self, at: usize) -> u32 {
+        self.0.get(at).map_or(0, |index| index.wrapping_add(1))
+    }
+
+    /// Codes the visits from this one on, of and below a node, and tells where they end; `None`, and perhaps bits, if they are no walk.
+    fn encode_below(&self, node: u32, nodes: u32, at: usize, bits: &mut BitWriter) -> Option<usize> {
+        let (left, next) = (2 * node, self.number(at + 1));
+        if left < nodes {
+            if next >> 1 != node {
+                return None;
+            }
+            bits.push_all(u64::from(next & 1), 1);
+            let at = self.encode_below(next, nodes, at + 1, bits)?;
+            let both = self.number(at) == next ^ 1;
+            bits.push_all(u64::from(both), 1);
+            return if both { self.encode_below(next ^ 1, nodes, at, bits) } else { Some(at) };
+        }
+        let only = left == nodes;
+        if only {
+            bits.push_all(u64::from(next == left), 1);
+        }
+        Some(at + 1 + usize::from(only && next == left))
     }
 }
 

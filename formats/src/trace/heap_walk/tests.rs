@@ -52,13 +52,23 @@ proptest! {
     #[test]
     fn any_walk_comes_back(nodes in prop_oneof![1u32..200, 200u32..9000], choices in prop::collection::vec(any::<bool>(), 0..512)) {
         let mut choices = choices.into_iter().cycle();
-        let (mut visited, mut touched) = (vec![], vec![]);
-        walk(1, nodes, &mut || choices.next().unwrap_or(true), &mut visited, &mut touched);
+        let (mut visited, mut touched, mut made) = (vec![], vec![], BitWriter::default());
+        let mut choose = || {
+            let choice = choices.next().unwrap_or(true);
+            made.make_room(1);
+            made.push_all(choice.into(), 1);
+            choice
+        };
+        walk(1, nodes, &mut choose, &mut visited, &mut touched);
         let mut bits = BitWriter::default();
         prop_assert_eq!(encode(&visited, nodes, &mut bits), Some(visited.len()));
+        // The bits are the choices, one by one, and no more.
+        prop_assert_eq!(bits.mark(), made.mark());
         bits.align();
-        prop_assert_eq!(decoded(&bits.bytes, nodes), Some(visited.clone()));
-        prop_assert_eq!(decoded_with_rereads(&bits.bytes, nodes), Some(touched));
+        made.align();
+        prop_assert_eq!(bits.bytes(), made.bytes());
+        prop_assert_eq!(decoded(bits.bytes(), nodes), Some(visited.clone()));
+        prop_assert_eq!(decoded_with_rereads(bits.bytes(), nodes), Some(touched));
         // A second walk right behind it is told apart.
         let twice = [visited.clone(), visited.clone()].concat();
         prop_assert_eq!(encode(&twice, nodes, &mut BitWriter::default()), Some(visited.len()));
@@ -77,13 +87,14 @@ proptest! {
         let mut bits = BitWriter::default();
         prop_assert_eq!(encode(&visited, nodes, &mut bits), Some(visited.len()));
         bits.align();
-        prop_assert_eq!(decoded(&bits.bytes, nodes), Some(visited));
+        prop_assert_eq!(decoded(bits.bytes(), nodes), Some(visited));
     }
 
     #[test]
     fn what_is_no_walk_leaves_no_bits(visited in prop::collection::vec(0u32..40, 0..30), nodes in 0u32..40) {
         let mut bits = BitWriter::default();
-        bits.push(true);
+        bits.make_room(1);
+        bits.push_all(1, 1);
         match encode(&visited, nodes, &mut bits) {
             None => prop_assert_eq!(bits.mark(), (0, 1, 1)),
             Some(len) => {
@@ -91,7 +102,7 @@ proptest! {
                 let mut bits = BitWriter::default();
                 encode(&visited, nodes, &mut bits);
                 bits.align();
-                prop_assert_eq!(decoded(&bits.bytes, nodes), Some(visited[..len].to_vec()));
+                prop_assert_eq!(decoded(bits.bytes(), nodes), Some(visited[..len].to_vec()));
             }
         }
     }
@@ -110,5 +121,5 @@ fn costs_what_the_module_says() {
     // Seven nodes, all visited: three inner nodes at two bits each.
     let mut bits = BitWriter::default();
     assert_eq!(encode(&[0, 1, 3, 4, 2, 5, 6], 7, &mut bits), Some(7));
-    assert_eq!(bits.count, 6);
+    assert_eq!(bits.mark().2, 6);
 }
