@@ -21,7 +21,10 @@ fn from_octahedron([x, y]: [f32; 2]) -> [f32; 3] {
 /// A number in [-1, 1] in `2 * half + 1` steps, of which the middle one is exactly 0: vectors along an axis are exact.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0 ..= 2 * half")]
 fn quantise(x: f32, half: f32) -> u16 {
-    (x * half + half).round().clamp(0.0, 2.0 * half) as u16
+    let steps = (x * half + half).clamp(0.0, 2.0 * half);
+    // Halves go up, as `round` has them, which is a call to the C library on most machines.
+    let below = steps as u16;
+    below + u16::from(steps - f32::from(below) >= 0.5)
 }
 
 /// Packs a unit vector with `BITS` bits a coordinate, low coordinate in the low bits. The zero vector and what is not

@@ -26,6 +26,13 @@ impl Random {
         Self(key.iter().fold(0, |state, &part| mix(state ^ mix(part))))
     }
 
+    /// The sequence of a key that is one part longer than this one's, from which nothing has been taken.
+    #[inline]
+    #[must_use]
+    pub const fn with(&self, part: u64) -> Self {
+        Self(mix(self.0 ^ mix(part)))
+    }
+
     /// The next 64 bits.
     #[inline]
     pub fn next_u64(&mut self) -> u64 {
@@ -76,5 +83,10 @@ mod tests {
         let values = [first(&[1, 2]), first(&[2, 1]), first(&[1, 3]), first(&[1, 2, 0]), first(&[1])];
         let distinct: std::collections::BTreeSet<_> = values.into_iter().collect();
         assert_eq!(distinct.len(), values.len());
+    }
+
+    #[test]
+    fn parts_can_be_added_one_by_one() {
+        assert_eq!(Random::new(&[7]).with(0).with(9).next_u64(), Random::new(&[7, 0, 9]).next_u64());
     }
 }

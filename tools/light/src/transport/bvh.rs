@@ -1,30 +1,34 @@
-//! Where rays hit: a bounding volume hierarchy of the obvhs library, with a triangle test of our own.
+//! Where rays hit: a bounding volume hierarchy that the obvhs library builds, with a triangle test of our own.
 //!
-//! The library's eight-wide form is faster but drops hits nearer than 1e-4, and sees nothing along a direction with a
-//! component of -0.0; its binary form does neither. Boxes are padded: where they are not, the rounding of the box test loses
-//! the hits of 88 of 1,363 rays through the points of a lattice. Our triangle test is watertight: a ray through a shared
-//! edge hits one of the triangles.
+//! The library's hierarchy is binary. Rays go through an eight-wide one made of it, whose boxes and triangles are tested eight
+//! at a time (`cargo bench -p pm-programs --bench rays`). The library's own eight-wide form drops hits nearer than 1e-4, and
+//! sees nothing along a direction with a component of -0.0. The binary one says which triangle is the first where two are met
+//! at the very same distance, as on an edge: the last on its way.
+//!
+//! Boxes are padded: where they are not, the rounding of the box test loses the hits of 88 of 1,363 rays through the points of
+//! a lattice. Our triangle test is watertight: a ray through a shared edge hits one of the triangles.
+
+mod lanes;
+mod ray;
+mod search;
+mod sheared;
+#[cfg(test)]
+mod tests;
+mod wide;
 
 use crate::scene::Scene;
 use glam::{Vec3, Vec3A};
+use lanes::{Instructions, LANES};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
-use obvhs::ray::Ray;
 use obvhs::{Boundable, BvhBuildParams};
+use ray::Ray;
+use search::{Blocked, Closest};
+use sheared::Sheared;
 use std::time::Duration;
+use wide::Wide;
 
-/// The first triangle that a ray meets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayHit {
-    /// Index of the triangle in the scene.
-    pub triangle: u32,
-    /// Distance in units of the ray's direction.
-    pub t: f32,
-    /// Barycentric weight of the triangle's second corner.
-    pub u: f32,
-    /// Barycentric weight of its third corner.
-    pub v: f32,
-}
+pub use ray::RayHit;
 
 /// What light transport needs of a ray caster.
 pub trait RayCaster: Sync {
@@ -35,8 +39,10 @@ pub trait RayCaster: Sync {
     fn blocked(&self, from: Vec3, to: Vec3) -> bool;
 }
 
-/// Triangles in a binary bounding volume hierarchy.
+/// Triangles in a bounding volume hierarchy.
 pub struct Bvh {
+    wide: Wide,
+    instructions: Instructions,
     tree: Bvh2,
     /// In the order of the leaves, each with its index in the scene.
     triangles: Vec<([Vec3; 3], u32)>,
@@ -63,18 +69,18 @@ impl Bvh {
         // A few rounding steps of the largest coordinate.
         let margin = reach * 1e-6;
         let padded: Vec<_> = (0..scene.triangle_count()).map(|i| Padded(scene.triangle(i), margin)).collect();
-        let tree = build_bvh2(&padded, BvhBuildParams::medium_build(), &mut Duration::default());
-        let triangles = tree.primitive_indices.iter().map(|&i| (padded[i as usize].0, i)).collect();
-        Self { tree, triangles }
+        let build = BvhBuildParams { max_prims_per_leaf: LANES as u32, ..BvhBuildParams::medium_build() };
+        let tree = build_bvh2(&padded, build, &mut Duration::default());
+        let triangles: Vec<_> = tree.primitive_indices.iter().map(|&i| (padded[i as usize].0, i)).collect();
+        Self { wide: Wide::new(&tree, &triangles), instructions: Instructions::best(), tree, triangles }
     }
-}
 
-impl RayCaster for Bvh {
-    fn closest(&self, origin: Vec3, direction: Vec3, far: f32) -> Option<RayHit> {
+    /// The first triangle by the binary hierarchy.
+    fn closest_by_binary(&self, Ray { origin, direction, far }: Ray) -> Option<RayHit> {
         let sheared = Sheared::new(origin, direction);
         let mut best = None;
         let mut nearest = far;
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, far);
+        let ray = obvhs::ray::Ray::new(origin.into(), direction.into(), 0.0, far);
         self.tree.ray_traverse(ray, &mut obvhs::ray::RayHit::none(), |_, place| {
             let (corners, triangle) = &self.triangles[place];
             match sheared.hit(corners, nearest) {
@@ -88,69 +94,16 @@ impl RayCaster for Bvh {
         });
         best
     }
+}
+
+impl RayCaster for Bvh {
+    fn closest(&self, origin: Vec3, direction: Vec3, far: f32) -> Option<RayHit> {
+        let ray = Ray { origin, direction, far };
+        let first = self.instructions.run(Closest(&self.wide, ray))?;
+        if first.tied { self.closest_by_binary(ray) } else { Some(first.hit) }
+    }
 
     fn blocked(&self, from: Vec3, to: Vec3) -> bool {
-        let sheared = Sheared::new(from, to - from);
-        let ray = Ray::new(from.into(), (to - from).into(), 0.0, 1.0);
-        !self.tree.ray_traverse_miss(ray, |_, place| {
-            sheared.hit(&self.triangles[place].0, 1.0).map_or(f32::INFINITY, |(t, ..)| t)
-        })
-    }
-}
-
-/// A ray turned and sheared so that it runs along the z axis: edges shared by triangles are then judged by the very same
-/// products. Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2(1), 2013.
-struct Sheared {
-    origin: Vec3,
-    axes: [usize; 3],
-    shear: Vec3,
-}
-
-impl Sheared {
-    fn new(origin: Vec3, direction: Vec3) -> Self {
-        // z is where the ray goes most; x and y keep the handedness.
-        let size = direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        if direction[z] < 0.0 {
-            std::mem::swap(&mut x, &mut y);
-        }
-        let shear = Vec3::new(direction[x] / direction[z], direction[y] / direction[z], 1.0 / direction[z]);
-        Self { origin, axes: [x, y, z], shear }
-    }
-
-    /// Distance and barycentric weights of the second and third corner, for a hit at `0 < t <= far`.
-    #[inline]
-    fn hit(&self, corners: &[Vec3; 3], far: f32) -> Option<(f32, f32, f32)> {
-        let [x, y, z] = self.axes;
-        let [a, b, c] = corners.map(|corner| corner - self.origin);
-        let flat = |p: Vec3| (p[x] - self.shear.x * p[z], p[y] - self.shear.y * p[z]);
-        let ((ax, ay), (bx, by), (cx, cy)) = (flat(a), flat(b), flat(c));
-        let mut u = cx * by - cy * bx;
-        let mut v = ax * cy - ay * cx;
-        let mut w = bx * ay - by * ax;
-        if u == 0.0 || v == 0.0 || w == 0.0 {
-            // On an edge as far as single precision can tell: double precision decides.
-            let cross = |px: f32, py: f32, qx: f32, qy: f32| {
-                (f64::from(px) * f64::from(qy) - f64::from(py) * f64::from(qx)) as f32
-            };
-            (u, v, w) = (cross(cx, cy, bx, by), cross(ax, ay, cx, cy), cross(bx, by, ax, ay));
-        }
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let determinant = u + v + w;
-        if determinant == 0.0 {
-            return None;
-        }
-        let scaled = self.shear.z * (u * a[z] + v * b[z] + w * c[z]);
-        let t = scaled / determinant;
-        (t > 0.0 && t <= far).then(|| (t, v / determinant, w / determinant))
+        self.instructions.run(Blocked(&self.wide, Ray { origin: from, direction: to - from, far: 1.0 }))
     }
 }

@@ -42,9 +42,10 @@ struct Lamps {
 }
 
 /// The random numbers of one gather ray: light at a short end has its own, so that asking for it changes no query.
-pub(super) struct PathRandom {
+pub(super) struct PathRandom<L: Fn() -> Random> {
     pub(super) path: Random,
-    pub(super) light_at_short_end: Random,
+    /// Made when it is asked for, which is seldom.
+    pub(super) light_at_short_end: L,
 }
 
 impl<'a> GatherPaths<'a> {
@@ -59,7 +60,7 @@ impl<'a> GatherPaths<'a> {
         from: &SurfacePoint,
         (direction, techniques): (Vec3, Techniques),
         weight: Vec3,
-        random: &mut PathRandom,
+        random: &mut PathRandom<impl Fn() -> Random>,
         light: &mut impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) -> Option<End> {
@@ -77,13 +78,19 @@ impl<'a> GatherPaths<'a> {
     ///
     /// Near a corner a ray may end within the photons' disc of where it began, and then what it finds is blotched like
     /// the map itself: Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 8.5 (who traces on there).
-    fn continued(&self, end: &End, light: &mut impl FnMut(Vec3), random: &mut PathRandom) -> Option<End> {
+    fn continued(
+        &self,
+        end: &End,
+        light: &mut impl FnMut(Vec3),
+        random: &mut PathRandom<impl Fn() -> Random>,
+    ) -> Option<End> {
         let PathRandom { path: random, light_at_short_end } = random;
         let reflection = Reflection::new(self.surfaces.material(&end.point), end.point.facing, end.view);
         let techniques = Techniques { shadow: 1, gather: u32::from(!reflection.has_lobe()) };
         if self.options.direct {
             let Self { surfaces, lights, .. } = self;
-            light(end.weight * direct_light(surfaces, lights, &end.point, &reflection, techniques, light_at_short_end));
+            let random = &mut light_at_short_end();
+            light(end.weight * direct_light(surfaces, lights, &end.point, &reflection, techniques, random));
         }
         let (u, v) = (random.unit(), random.unit());
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;

@@ -151,14 +151,13 @@ impl<'a> GatherRays<'a> {
         let guide = self.guide.as_ref().and_then(|guide| guide.at(point.position, point.facing));
         // Each point has the first stratum once, whatever the order and the bins.
         counts.guided += u64::from(guide.is_some() && strata.contains(&0));
+        let [of_path, of_light] = [Purpose::GatherRay, Purpose::LightAtShortEnd]
+            .map(|purpose| Random::new(&[seed, purpose as u64, pixel.into()]));
         for &stratum in strata {
             counts.gather += 1;
             let sample = number * gathers + stratum;
-            let random_for = |purpose: Purpose| Random::new(&[seed, purpose as u64, pixel.into(), sample.into()]);
-            let mut random = PathRandom {
-                path: random_for(Purpose::GatherRay),
-                light_at_short_end: random_for(Purpose::LightAtShortEnd),
-            };
+            let mut random =
+                PathRandom { path: of_path.with(sample.into()), light_at_short_end: || of_light.with(sample.into()) };
             let (u, v) = self.strata.point(stratum, &mut random.path);
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
             let chosen = reflection.sample(spread, guide.as_ref(), u, v, &mut random.path);

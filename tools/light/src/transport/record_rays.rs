@@ -34,7 +34,7 @@ impl RecordRays<'_> {
         let (direction, path) = self.direction(stratum);
         let id = RECORDS | u64::from(self.id);
         let key = [self.rays.options.seed, Purpose::LightAtShortEnd as u64, id, stratum.into()];
-        let mut random = PathRandom { path, light_at_short_end: Random::new(&key) };
+        let mut random = PathRandom { path, light_at_short_end: || Random::new(&key) };
         // Its irradiance is that from surfaces alone: each point seen adds its own light from the lamps.
         let techniques = Techniques { shadow: 0, gather: 0 };
         self.rays.paths.cast(self.point, (direction, techniques), Vec3::ONE, &mut random, light, counts)

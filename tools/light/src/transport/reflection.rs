@@ -1,10 +1,11 @@
 //! How a surface spreads light over many directions: Lambert, and Phong's lobe where it is glossy.
 
 use super::directions::Directions;
-use super::sampling::{cosine_direction, phong_direction, uniform_direction};
+use super::sampling::{cosine_direction_in, phong_direction, uniform_direction};
 use super::scatter::spread_shares;
 use crate::scene::Material;
 use glam::Vec3;
+use pm_film::hemisphere::frame;
 use pm_random::Random;
 use std::f32::consts::PI;
 
@@ -31,6 +32,8 @@ pub(super) struct Reflection {
     specular: Vec3,
     exponent: f32,
     normal: Vec3,
+    /// Two directions along the surface.
+    frame: (Vec3, Vec3),
     /// The known direction, mirrored: as steep as itself.
     axis: Vec3,
 }
@@ -43,7 +46,7 @@ impl Reflection {
     pub(super) fn new(material: &Material, normal: Vec3, known: Vec3) -> Self {
         let (diffuse, specular) = spread_shares(material);
         let axis = normal * (2.0 * normal.dot(known)) - known;
-        Self { diffuse, specular, exponent: material.exponent, normal, axis }
+        Self { diffuse, specular, exponent: material.exponent, normal, frame: frame(normal), axis }
     }
 
     /// The BRDF for a unit vector away from the surface, per steradian.
@@ -95,7 +98,7 @@ impl Reflection {
         let (diffuse, specular) = (self.diffuse.max_element(), self.specular.max_element());
         if specular <= 0.0 && spread == Spread::Cosine {
             return Some(match guide {
-                None => (cosine_direction(self.normal, u, v), self.diffuse),
+                None => (cosine_direction_in(self.frame, self.normal, u, v), self.diffuse),
                 Some(guide) => {
                     let (direction, density) = guide.sample(u, v);
                     (direction, self.diffuse / density)
@@ -108,7 +111,7 @@ impl Reflection {
         } else if spread == Spread::Uniform {
             uniform_direction(self.normal, u, v)
         } else {
-            guide.map_or_else(|| cosine_direction(self.normal, u, v), |guide| guide.sample(u, v).0)
+            guide.map_or_else(|| cosine_direction_in(self.frame, self.normal, u, v), |guide| guide.sample(u, v).0)
         };
         let cosine = direction.dot(self.normal);
         if cosine <= 0.0 {

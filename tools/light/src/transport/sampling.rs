@@ -7,9 +7,14 @@ use pm_film::hemisphere::frame;
 /// squared sine of the elevation, the second the azimuth.
 #[must_use]
 pub(super) fn cosine_direction(normal: Vec3, u: f32, v: f32) -> Vec3 {
+    cosine_direction_in(frame(normal), normal, u, v)
+}
+
+/// As [`cosine_direction`], for the frame about a normal that is known.
+#[must_use]
+pub(super) fn cosine_direction_in((x, y): (Vec3, Vec3), normal: Vec3, u: f32, v: f32) -> Vec3 {
     let (sin, cos) = (u.sqrt(), (1.0 - u).sqrt());
     let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);
-    let (x, y) = frame(normal);
     (x * (sin * cos_phi) + y * (sin * sin_phi) + normal * cos).normalize()
 }
 

@@ -1,7 +1,7 @@
 //! Points on surfaces: where a ray hit, and how to leave again without hitting the same surface.
 
 use super::bvh::{Bvh, RayCaster};
-use crate::scene::{Material, Scene};
+use crate::scene::{Material, MaterialKind, Scene};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -15,7 +15,42 @@ pub struct Surfaces<'a> {
 
 struct Built {
     bvh: Bvh,
-    normals: Vec<Vec3>,
+    facets: Vec<Facet>,
+}
+
+/// What is asked of a triangle wherever it is met, in one place.
+#[derive(Clone, Copy)]
+struct Facet {
+    corner: Vec3,
+    /// From that corner to the second and to the third.
+    edges: [Vec3; 2],
+    /// Unit normal.
+    front: Vec3,
+    material: u16,
+    /// Is the normal at its points another than its own, and asked for?
+    is_smooth: bool,
+}
+
+impl Facet {
+    fn new(scene: &Scene, triangle: usize) -> Self {
+        let [a, b, c] = scene.triangle(triangle);
+        let bends = matches!(scene.material_of(triangle).kind, MaterialKind::Mirror | MaterialKind::Glass);
+        Self {
+            corner: a,
+            edges: [b - a, c - a],
+            front: scene.geometric_normal(triangle),
+            material: scene.material_ids[triangle],
+            is_smooth: bends && scene.corner_normals(triangle).is_some(),
+        }
+    }
+
+    /// The point with these weights of the second and third corner, and how far a ray must start from it.
+    fn point(&self, u: f32, v: f32) -> (Vec3, f32) {
+        let [ab, ac] = self.edges;
+        // From the corners and not along the ray: coordinates that the corners share stay exact.
+        let position = self.corner + ab * u + ac * v;
+        (position, MARGIN * (position.abs().max_element() + ab.abs().max(ac.abs()).max_element()))
+    }
 }
 
 impl<'a> From<&'a Scene> for Surfaces<'a> {
@@ -33,7 +68,8 @@ pub struct SurfacePoint {
     pub front: Vec3,
     /// Unit normal of the triangle on the side that the ray came from.
     pub facing: Vec3,
-    /// Interpolated normal on the front side, for reflection and refraction; `front` where the surface is flat.
+    /// Interpolated normal on the front side, for reflection and refraction; `front` where the surface is flat, or neither a
+    /// mirror nor glass.
     pub smooth: Vec3,
     /// Material, an index into the scene's.
     pub material: u16,
@@ -51,8 +87,8 @@ impl<'a> Surfaces<'a> {
     /// Builds what rays need.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
-        let normals = (0..scene.triangle_count()).map(|i| scene.geometric_normal(i)).collect();
-        Self { scene, built: Arc::new(Built { bvh: Bvh::build(scene), normals }) }
+        let facets = (0..scene.triangle_count()).map(|i| Facet::new(scene, i)).collect();
+        Self { scene, built: Arc::new(Built { bvh: Bvh::build(scene), facets }) }
     }
 
     /// The first surface that a ray meets.
@@ -60,12 +96,11 @@ impl<'a> Surfaces<'a> {
     pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
         let hit = self.built.bvh.closest(origin, direction, f32::INFINITY)?;
         let index = hit.triangle as usize;
-        let [a, b, c] = self.scene.triangle(index);
-        let (ab, ac) = (b - a, c - a);
-        // From the corners and not along the ray: coordinates that the corners share stay exact.
-        let position = a + ab * hit.u + ac * hit.v;
-        let front = self.built.normals[index];
-        let smooth = match self.scene.corner_normals(index) {
+        let facet = &self.built.facets[index];
+        let (position, margin) = facet.point(hit.u, hit.v);
+        let front = facet.front;
+        let normals = if facet.is_smooth { self.scene.corner_normals(index) } else { None };
+        let smooth = match normals {
             Some([na, nb, nc]) => (na * (1.0 - hit.u - hit.v) + nb * hit.u + nc * hit.v).normalize_or(front),
             None => front,
         };
@@ -74,9 +109,9 @@ impl<'a> Surfaces<'a> {
             front,
             facing: if direction.dot(front) > 0.0 { -front } else { front },
             smooth,
-            material: self.scene.material_ids[index],
+            material: facet.material,
             triangle: hit.triangle,
-            margin: MARGIN * (position.abs().max_element() + ab.abs().max(ac.abs()).max_element()),
+            margin,
         })
     }
 
@@ -95,11 +130,9 @@ impl<'a> Surfaces<'a> {
     /// A point of a triangle by barycentric weights of its second and third corner, lifted off its front.
     #[must_use]
     pub fn point_before(&self, triangle: usize, u: f32, v: f32) -> (Vec3, Vec3) {
-        let [a, b, c] = self.scene.triangle(triangle);
-        let (ab, ac) = (b - a, c - a);
-        let position = a + ab * u + ac * v;
-        let margin = MARGIN * (position.abs().max_element() + ab.abs().max(ac.abs()).max_element());
-        (position + self.built.normals[triangle] * margin, self.built.normals[triangle])
+        let facet = &self.built.facets[triangle];
+        let (position, margin) = facet.point(u, v);
+        (position + facet.front * margin, facet.front)
     }
 }
 

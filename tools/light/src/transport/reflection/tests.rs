@@ -1,6 +1,7 @@
 //! Do samples carry what the BRDF says, and is the BRDF that of a real surface?
 
 use super::super::directions::tests::distributions;
+use super::super::sampling::cosine_direction;
 use super::*;
 use crate::scene::MaterialKind;
 

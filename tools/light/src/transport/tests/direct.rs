@@ -115,7 +115,7 @@ fn shadow_rays_and_gather_rays_share_the_light_of_lamps_small_and_close() {
                 let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random).unwrap();
                 let weight = weight / techniques.gather as f32;
                 let own = || Random::new(&[1]);
-                let random = &mut PathRandom { path: own(), light_at_short_end: own() };
+                let random = &mut PathRandom { path: own(), light_at_short_end: own };
                 let counts = &mut RayCounts::default();
                 paths.cast(point, (direction, techniques), weight, random, &mut |light| sum += light, counts);
             }

@@ -1,0 +1,187 @@
+//! How fast are rays, as ratios to the better of the library's two hierarchies?
+//!
+//! The yardstick is obvhs with its own triangle test: gather rays from the points that a picture sees, as far as the first
+//! triangle. Beside it stand our hierarchy on the very same rays, and all that `pm-queries` does for a ray of that picture: random
+//! numbers, mirrors and glass, queries, their stream. Rounds are interleaved and medians compared, so that a busy machine slows
+//! all alike. The library's test lets a few rays slip through edges; beyond one in a thousand, what is met is another scene.
+//!
+//! `cargo bench -p pm-programs --bench rays [-- WIDTH [ROUNDS [GATHERS]]]`.
+#![allow(clippy::print_stdout)]
+
+mod common;
+
+use common::{cpu_time, median};
+use glam::Vec3;
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2_from_tris};
+use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
+use obvhs::ray::{Ray, RayHit};
+use obvhs::rt_triangle::RtTriangle;
+use obvhs::triangle::Triangle;
+use pm_formats::{BlockMeta, Bounds, Header, Query, RecordWriter};
+use pm_light::scene::{Camera, CameraOverrides, Scene};
+use pm_light::transport::{
+    AtSpecular, Bvh, GatherOptions, GatherRays, Method, PixelCaster, RayCaster as _, RayCounts, Spread, Strata,
+    Surfaces,
+};
+use pm_orders::VisiblePoints;
+use pm_random::Random;
+use std::hint::black_box;
+use std::time::Duration;
+
+fn main() {
+    let numbers: Vec<u32> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
+    let number = |at: usize, default: u32| numbers.get(at).copied().unwrap_or(default);
+    let (width, rounds, gathers) = (number(0, 128), number(1, 7), number(2, 16));
+    let scene = Scene::embedded();
+    let size = CameraOverrides { size: Some([width, width]), ..CameraOverrides::default() };
+    let camera = Camera::embedded(&size).expect("a camera of this size").camera;
+    let rays = gather_rays(&scene, &camera, gathers);
+    let (bvh2, cwbvh, own) = (Binary::new(&scene), EightWide::new(&scene), Bvh::build(&scene));
+    let picture = Picture::new(&scene, camera, gathers);
+    let own = |&(origin, direction): &(Vec3, Vec3)| own.closest(origin, direction, f32::INFINITY).map(|hit| hit.t);
+    let other = rays.iter().filter(|ray| !agree(bvh2.closest(ray), own(ray))).count();
+    assert!(other * 1000 < rays.len(), "{other} of {} rays meet something else", rays.len());
+
+    println!(
+        "{} gather rays in {} triangles, {other} through edges; time of a ray",
+        rays.len(),
+        scene.triangle_count()
+    );
+    let sum = |closest: &dyn Fn(&(Vec3, Vec3)) -> Option<f32>| {
+        black_box(rays.iter().filter_map(closest).map(f64::from).sum::<f64>());
+        rays.len() as u64
+    };
+    let contestants: [(&str, Box<dyn Fn() -> u64 + '_>); 4] = [
+        ("obvhs, binary", Box::new(|| sum(&|ray| bvh2.closest(ray)))),
+        ("obvhs, eight-wide", Box::new(|| sum(&|ray| cwbvh.closest(ray)))),
+        ("ours", Box::new(|| sum(&own))),
+        ("a picture's, with its stream", Box::new(|| picture.write())),
+    ];
+    let mut times = vec![vec![]; contestants.len()];
+    for _ in 0..rounds {
+        for ((_, contestant), times) in contestants.iter().zip(&mut times) {
+            let start = cpu_time();
+            let rays = contestant();
+            times.push((cpu_time() - start).as_secs_f64() / rays as f64);
+        }
+    }
+    let ratios = |times: &[f64], best: &[f64]| median(times.iter().zip(best).map(|(time, best)| time / best).collect());
+    let best = usize::from(median(times[1].clone()) < median(times[0].clone()));
+    for ((name, _), these) in contestants.iter().zip(&times) {
+        println!("  {name:30} {:6.0} ns  {:5.2}", median(these.clone()) * 1e9, ratios(these, &times[best]));
+    }
+}
+
+fn agree(a: Option<f32>, b: Option<f32>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() <= 1e-4 * (1.0 + b),
+        _ => a.is_none() && b.is_none(),
+    }
+}
+
+/// Rays spread by the cosine from each of the points seen.
+fn gather_rays(scene: &Scene, camera: &Camera, gathers: u32) -> Vec<(Vec3, Vec3)> {
+    let surfaces = Surfaces::new(scene);
+    let mut random = Random::new(&[1]);
+    let [width, height] = camera.size();
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (f64::from(x) + 0.5, f64::from(y) + 0.5)));
+    let seen = pixels.map(|(x, y)| camera.ray(x, y)).filter_map(|(eye, direction)| surfaces.hit(eye, direction));
+    let from = |point| (0..gathers).map(move |_| point);
+    let towards = seen.flat_map(from).map(|point| {
+        let (z, turn) = (2.0 * random.unit() - 1.0, std::f32::consts::TAU * random.unit());
+        let r = (1.0 - z * z).sqrt();
+        // A point of the unit sphere that touches the surface.
+        let direction = (point.facing + Vec3::new(r * turn.cos(), r * turn.sin(), z)).normalize_or(point.facing);
+        (point.start(direction), direction)
+    });
+    towards.collect()
+}
+
+fn triangles(scene: &Scene) -> Vec<Triangle> {
+    let triangle = |[v0, v1, v2]: [Vec3; 3]| Triangle { v0: v0.into(), v1: v1.into(), v2: v2.into() };
+    (0..scene.triangle_count()).map(|i| triangle(scene.triangle(i))).collect()
+}
+
+fn in_order(triangles: &[Triangle], order: &[u32]) -> Vec<RtTriangle> {
+    order.iter().map(|&i| (&triangles[i as usize]).into()).collect()
+}
+
+struct Binary(Bvh2, Vec<RtTriangle>);
+
+impl Binary {
+    fn new(scene: &Scene) -> Self {
+        let triangles = triangles(scene);
+        let tree = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+        let triangles = in_order(&triangles, &tree.primitive_indices);
+        Self(tree, triangles)
+    }
+
+    fn closest(&self, &(origin, direction): &(Vec3, Vec3)) -> Option<f32> {
+        let (ray, mut hit) = (Ray::new_inf(origin.into(), direction.into()), RayHit::none());
+        self.0.ray_traverse(ray, &mut hit, |ray, place| self.1[place].intersect(ray)).then_some(hit.t)
+    }
+}
+
+struct EightWide(CwBvh, Vec<RtTriangle>);
+
+impl EightWide {
+    fn new(scene: &Scene) -> Self {
+        let triangles = triangles(scene);
+        let tree = build_cwbvh_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+        let triangles = in_order(&triangles, &tree.primitive_indices);
+        Self(tree, triangles)
+    }
+
+    fn closest(&self, &(origin, direction): &(Vec3, Vec3)) -> Option<f32> {
+        let (ray, mut hit) = (Ray::new_inf(origin.into(), direction.into()), RayHit::none());
+        self.0.ray_traverse(ray, &mut hit, |ray, place| self.1[place].intersect(ray)).then_some(hit.t)
+    }
+}
+
+/// All of a picture's rays, as `pm-queries` casts them on one thread.
+struct Picture<'a> {
+    rays: GatherRays<'a>,
+    header: Header,
+    size: [u32; 2],
+}
+
+impl<'a> Picture<'a> {
+    fn new(scene: &'a Scene, camera: Camera, gathers: u32) -> Self {
+        let size = camera.size();
+        let options = GatherOptions {
+            method: Method::FinalGather,
+            samples: 1,
+            gathers,
+            spread: Spread::Cosine,
+            min_gather_dist: 0.0,
+            light_samples: 0,
+            seed: 0,
+            direct: false,
+            strata: Strata::Raster,
+            at_specular: AtSpecular::GoOn,
+            queue_specular: false,
+            caustics: true,
+        };
+        let bounds = Bounds { min: scene.bounds.min.into(), max: scene.bounds.max.into() };
+        let header = Header { bounds, image: size, ..Header::empty() };
+        Self { rays: GatherRays::new(scene, camera, options), header, size }
+    }
+
+    /// Writes the queries to nowhere; returns the number of rays, eye rays included.
+    fn write(&self) -> u64 {
+        let mut counts = RayCounts::default();
+        let mut writer = RecordWriter::<Query, _>::new(std::io::sink(), &self.header).expect("a header");
+        let mut queries = vec![];
+        for y in 0..self.size[1] {
+            let mut caster = PixelCaster::new(&self.rays, None);
+            for x in 0..self.size[0] {
+                caster.pixel([x, y], VisiblePoints::All, |query| queries.push(query), |_| {}, &mut counts);
+            }
+            writer.write(BlockMeta::default(), &queries).expect("what is written to nowhere");
+            queries.clear();
+        }
+        writer.finish(vec![]).expect("what is written to nowhere");
+        counts.gather + counts.eye
+    }
+}
