@@ -7,7 +7,7 @@ BENCH_QUERIES := out/bench/hilbert.pmq out/bench/scanline.pmq out/bench/random.p
 # How many photons are looked for, and within which distance.
 BENCH_AIMS := 10,50,100,500,100@0.01
 
-bench: $(BENCH_PHOTONS) $(BENCH_QUERIES) ## Speed, as ratios measured side by side, to other libraries as well: five minutes
+bench: $(BENCH_PHOTONS) $(BENCH_QUERIES) ## Speed, as ratios measured side by side, to other libraries as well: five minutes, and twelve of building the first time
 	$(CARGO) bench -p pm-programs --bench '*'
 	$(call build_peers)
 	$(RACE) ratios 7 $(NATIVE) $(BENCH_AIMS) $(BENCH_PHOTONS) $(BENCH_QUERIES)

