@@ -71,8 +71,7 @@ const LOOKS: f64 = 3.0;
 /// What would cost more than this share of what will do is not tried.
 const LITTLE: f64 = 0.8;
 /// Where half the trials have not found what will do, each of the others asks for so much less error; of a large picture each does.
-const STRICTER: f64 = 0.97;
-const STRICTER_BESIDE: f64 = 0.94;
+const STRICTER: f64 = 0.94;
 /// Pixels that a trial makes, each twice: times those of a survey, and as a share of a large picture's.
 const MORE_TRIED: u32 = 4;
 const SHARE_TRIED: f64 = 0.004;
@@ -161,8 +160,8 @@ pub fn plan(task: &Task<'_>, wanted: &Wanted) -> Result<Result<Plan, NoPlan>, Pl
         evidence.add(&choice.recipe, found);
         let tried = |next: &Choice| trials.iter().any(|tried| tried.choice.recipe == next.recipe);
         // Each trial of a large picture is dear.
-        let (patient, stricter) = if task.is_large() { (0, STRICTER_BESIDE) } else { (TRIALS / 2, STRICTER) };
-        let strict = libm::pow(stricter, f64::from(trial.saturating_sub(patient)));
+        let patient = if task.is_large() { 0 } else { TRIALS / 2 };
+        let strict = libm::pow(STRICTER, f64::from(trial.saturating_sub(patient)));
         best = chosen_again(task, &Wanted { error: wanted.error * strict, ..*wanted }, &evidence, &choice.recipe);
         best.retain(|next| !tried(next) || does(&evidence.judge(&next.recipe)));
         // What would be tried next has been, or saves little beside what will do: there is no more to learn that is worth it.

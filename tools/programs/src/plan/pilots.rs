@@ -25,8 +25,6 @@ pub(super) struct Time {
 
 /// Small pictures of the same size, and the share of the planned one that each is, unless that is soon done.
 const PICTURES: u32 = 4;
-/// The same beside a large picture.
-const FEWER: u32 = 3;
 const SHARE: f64 = 0.003;
 /// Seconds that a small picture shall take: less is measured badly. Where the picture is large its pixels take about as much as any
 /// of its parts, and half does.
@@ -73,7 +71,7 @@ impl Pilots<'_> {
         let before = gathered(tiny, 0)?;
         let mut pilots = whole + before;
         let mut slopes = vec![];
-        for number in 1..=if is_large(pixels) { FEWER } else { PICTURES } {
+        for number in 1..=PICTURES {
             let one = gathered(small, number)?;
             pilots += one;
             slopes.push(((one - before) / (of(small) - of(tiny)).max(1.0)).max(0.0));
