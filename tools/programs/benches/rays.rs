@@ -3,8 +3,8 @@
 //! The yardstick is obvhs with its own triangle test: gather rays from the points that a picture sees, as far as the first
 //! triangle. Beside it stand our hierarchy on the very same rays, and all that `pm-queries` does for a ray of that picture: random
 //! numbers, mirrors and glass, queries, their stream. Rounds are interleaved and medians compared, so that a busy machine slows
-//! all alike. The library's test is not watertight: of rays along edges, or from where two walls meet, some end elsewhere, fewer
-//! than one in a hundred.
+//! all alike. Both have to find the same. Left out of that are rays from where two walls meet: those begin in the very plane of the
+//! next wall, and by our test meet it at once, as rounding has it; not by the library's, nor in double precision.
 //!
 //! `cargo bench -p pm-programs --bench rays [-- WIDTH [ROUNDS [GATHERS]]]`.
 #![allow(clippy::print_stdout)]
@@ -31,6 +31,9 @@ use pm_random::Random;
 use std::hint::black_box;
 use std::time::Duration;
 
+/// What is met nearer than this is the plane that a ray began in. A wall is one unit long.
+const AT_ONCE: f32 = 1e-6;
+
 fn main() {
     let numbers: Vec<u32> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
     let number = |at: usize, default: u32| numbers.get(at).copied().unwrap_or(default);
@@ -42,13 +45,15 @@ fn main() {
     let (bvh2, cwbvh, own) = (Binary::new(&scene), EightWide::new(&scene), Bvh::build(&scene));
     let picture = Picture::new(&scene, camera, gathers);
     let own = |&(origin, direction): &(Vec3, Vec3)| own.closest(origin, direction, f32::INFINITY).map(|hit| hit.t);
-    let other = rays.iter().filter(|ray| !agree(bvh2.closest(ray), own(ray))).count();
-    assert!(other * 100 < rays.len(), "{other} of {} rays meet something else", rays.len());
+    let (at_once, further): (Vec<_>, Vec<_>) = rays.iter().partition(|ray| own(ray).is_some_and(|t| t < AT_ONCE));
+    let other = further.iter().filter(|ray| !agree(bvh2.closest(ray), own(ray))).count();
+    assert!(other * 100_000 < rays.len(), "{other} of {} rays meet something else", rays.len());
 
     println!(
-        "{} gather rays in {} triangles, {other} of them to other ends; time of a ray",
+        "{} gather rays in {} triangles, {} of them met at once; time of a ray",
         rays.len(),
-        scene.triangle_count()
+        scene.triangle_count(),
+        at_once.len()
     );
     let sum = |closest: &dyn Fn(&(Vec3, Vec3)) -> Option<f32>| {
         black_box(rays.iter().filter_map(closest).map(f64::from).sum::<f64>());
