@@ -49,9 +49,7 @@ pub(crate) fn measure(
             let (done, took) = nanoseconds(|| {
                 for block in blocks {
                     let answered = answerer.answer(block).map_err(|fault| anyhow::anyhow!("{fault:?}"))?;
-                    for (pixel, units) in answered.contributions {
-                        film.add(pixel, units)?;
-                    }
+                    film.add_all(&answered.contributions)?;
                 }
                 anyhow::Ok(())
             })?;

@@ -1,7 +1,7 @@
 //! Answering a block of queries: the searches, the trace of what they read, and what the pixels get.
 
 use super::{Answered, Fault, HeldIrradiance, Lookups, Outcome, RadianceEstimate, Scratch, SearchCounts};
-use pm_film::film::{Film, Overflow};
+use pm_film::film::{Film, Overflow, Units};
 use pm_film::irradiance::CachedIrradiance;
 use pm_formats::trace::{Access, BlockEncoder, Coding, Region, Waits};
 use pm_formats::{Block, Header, Query, decode_checked};
@@ -88,8 +88,8 @@ struct Work<'a> {
     implied: bool,
     scratch: Scratch,
     encoder: Option<BlockEncoder<'a>>,
-    contributions: Vec<(u32, [i128; 3])>,
-    cached: Vec<(u32, [i128; 3])>,
+    contributions: Vec<(u32, Units)>,
+    cached: Vec<(u32, Units)>,
     counts: SearchCounts,
     lookups: Option<Lookups>,
 }

@@ -1,7 +1,7 @@
 //! What a block of queries became, or why it became nothing.
 
 use super::Lookups;
-use pm_film::film::Overflow;
+use pm_film::film::{Overflow, Units};
 use pm_formats::{Block, Number, StageReport, Tally};
 use std::ops::AddAssign;
 
@@ -12,9 +12,9 @@ pub struct Answered {
     /// Number and digest of the queries.
     pub tally: Tally,
     /// What is to be added to which pixel.
-    pub contributions: Vec<(u32, [i128; 3])>,
+    pub contributions: Vec<(u32, Units)>,
     /// What is to be added to which sum of the cached irradiance.
-    pub cached: Vec<(u32, [i128; 3])>,
+    pub cached: Vec<(u32, Units)>,
     /// What was done.
     pub counts: SearchCounts,
     /// What the lookups were like, if that is wanted.

@@ -34,13 +34,8 @@ impl Films {
 
     /// Adds what a block of queries became.
     pub(super) fn add(&mut self, answered: &Answered) -> Result<(), Overflow> {
-        for &(pixel, units) in &answered.contributions {
-            self.pixels.add(pixel, units)?;
-        }
-        for &(sum, units) in &answered.cached {
-            self.sums.add(sum, units)?;
-        }
-        Ok(())
+        self.pixels.add_all(&answered.contributions)?;
+        self.sums.add_all(&answered.cached)
     }
 
     /// The picture, of this size.

@@ -4,7 +4,7 @@ use crate::cli::{Output, PART, create_output, room_for, write_picture};
 use crate::gather::FILM_BYTES;
 use anyhow::Context as _;
 use glam::Vec3;
-use pm_film::film::{Film, Overflow};
+use pm_film::film::{Film, Overflow, Units};
 use pm_formats::vocabulary::Part;
 use pm_light::scene::Scene;
 use pm_pictures::Picture;
@@ -29,7 +29,7 @@ impl Base {
     }
 
     /// Adds what [`Exposure::light`] collected.
-    pub(super) fn add(&mut self, light: Vec<(u32, [i128; 3])>) -> Result<(), Overflow> {
+    pub(super) fn add(&mut self, light: Vec<(u32, Units)>) -> Result<(), Overflow> {
         light.into_iter().try_for_each(|(pixel, units)| self.film.add(pixel, units))
     }
 
@@ -52,7 +52,7 @@ impl Exposure {
     }
 
     /// Radiance in units of the film.
-    pub(super) fn quantise(&self, pixel: u32, radiance: Vec3) -> Result<[i128; 3], Overflow> {
+    pub(super) fn quantise(&self, pixel: u32, radiance: Vec3) -> Result<Units, Overflow> {
         self.0.quantise(radiance.as_dvec3().into()).ok_or(Overflow(pixel))
     }
 }

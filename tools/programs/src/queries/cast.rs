@@ -2,7 +2,7 @@
 
 use super::base::Exposure;
 use super::sample::{Job, Sample};
-use pm_film::film::Overflow;
+use pm_film::film::{Overflow, Units};
 use pm_formats::Query;
 use pm_formats::vocabulary::Part;
 use pm_light::transport::{CacheRecords, GatherRays, PixelCaster, RayCounts};
@@ -37,7 +37,7 @@ pub(super) struct Cast {
     /// Those that wait for the end of the batch.
     pub(super) queued: Vec<Query>,
     /// By pixel, in units of the film.
-    pub(super) light: Vec<(u32, [i128; 3])>,
+    pub(super) light: Vec<(u32, Units)>,
     pub(super) counts: RayCounts,
 }
 
