@@ -7,11 +7,14 @@
 //! The problem is the boundary bias of Jensen, *Realistic Image Synthesis Using Photon Mapping*, 2001, section 7.2, who
 //! leaves it; convex hulls of the photons found are the usual cure, but shrink the area everywhere.
 
+mod around;
 mod slope;
 
+pub(super) use around::Around;
 pub(super) use slope::Slope;
 
 use super::kernel::Kernel;
+use super::surface::Surface;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -46,6 +49,18 @@ pub(super) struct Disc {
     cuts: Vec<Cut>,
 }
 
+/// A plane that cuts the disc.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    /// Unit normal, towards the query.
+    normal: DVec3,
+    /// Distance from the query, in radii.
+    height: f64,
+    /// The part of the normal that lies in the disc, and its length.
+    along: DVec3,
+    sine: f64,
+}
+
 /// A photon that does not lie on the query's surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stranger {
@@ -63,66 +78,64 @@ impl Disc {
         Self { normal, cuts: vec![] }
     }
 
-    /// Cuts the disc where the surfaces of `strangers` (in any order) meet it: nearest first, each unless it lies beyond
-    /// the cuts before it.
-    pub(super) fn cut(&mut self, strangers: &[Stranger]) {
-        self.cut_up_to(MOST_CUTS, strangers);
+    /// Cuts the disc where the surfaces of strangers meet it, nearest first, each unless it lies beyond the cuts before it, and takes
+    /// away what lies beyond them. `stranger` says more of one of those `around`.
+    pub(super) fn cut(&mut self, surface: &Surface, around: &mut Around, stranger: impl Fn(&Around, u32) -> Stranger) {
+        self.cut_up_to(MOST_CUTS, surface, around, stranger);
     }
 
     /// The same with this many cuts at most.
-    pub(super) fn cut_up_to(&mut self, most: usize, strangers: &[Stranger]) {
+    pub(super) fn cut_up_to(
+        &mut self,
+        most: usize,
+        surface: &Surface,
+        around: &mut Around,
+        stranger: impl Fn(&Around, u32) -> Stranger,
+    ) {
         while self.cuts.len() < most {
-            let mut nearest: Option<((f32, u32), Cut)> = None;
-            for stranger in strangers {
-                let is_nearer = |((distance, id), _): ((f32, u32), Cut)| {
-                    stranger.rank.0.total_cmp(&distance).then(stranger.rank.1.cmp(&id)).is_lt()
-                };
-                if nearest.is_none_or(is_nearer)
-                    && self.cuts.iter().all(|cut| cut.depth(stranger.offset) > ON_THE_PLANE)
-                    && let Some(cut) = self.cut_by(stranger)
+            let mut nearest: Option<(f32, Stranger, Plane)> = None;
+            for &number in around.strangers() {
+                // Most are farther than the nearest so far, and more is not asked of them.
+                let distance = around.distances[number as usize];
+                if nearest.is_some_and(|(nearest, ..)| distance > nearest) {
+                    continue;
+                }
+                let one = stranger(around, number);
+                if nearest.is_none_or(|(_, nearest, _)| one.is_nearer(&nearest))
+                    && let Some(plane) = self.plane(&one)
                 {
-                    nearest = Some((stranger.rank, cut));
+                    nearest = Some((distance, one, plane));
                 }
             }
-            match nearest {
-                Some((_, cut)) => self.cuts.push(cut),
-                None => break,
-            }
+            let Some((.., plane)) = nearest else { break };
+            let cut = self.cut_by(plane);
+            self.cuts.push(cut);
+            around.take_away(surface, &cut);
         }
     }
 
-    /// The cut that a photon's plane makes, if it reaches the disc.
-    fn cut_by(&self, stranger: &Stranger) -> Option<Cut> {
+    /// The plane of a photon's surface, if it reaches the disc.
+    fn plane(&self, stranger: &Stranger) -> Option<Plane> {
         let height = -stranger.normal.dot(stranger.offset);
         // At a convex edge the query is behind the other surface: the plane is the same.
         let (normal, height) = if height < 0.0 { (-stranger.normal, -height) } else { (stranger.normal, height) };
         let along = normal - self.normal * normal.dot(self.normal);
         let sine = along.length();
-        if sine < LEAST_SINE || height >= sine {
-            return None;
-        }
+        (sine >= LEAST_SINE && height < sine).then_some(Plane { normal, height, along, sine })
+    }
+
+    /// The cut that a plane makes.
+    fn cut_by(&self, Plane { normal, height, along, sine }: Plane) -> Cut {
         let towards = along / -sine;
         let angle = self.cuts.first().map_or(0.0, |first| {
             libm::atan2(self.normal.dot(first.towards.cross(towards)), first.towards.dot(towards))
         });
-        Some(Cut { normal, height, distance: height / sine, angle, towards })
-    }
-
-    /// Is a point (relative to the query, in radii) on the query's side of every cut?
-    #[inline]
-    pub(super) fn holds(&self, offset: DVec3) -> bool {
-        self.cuts.iter().all(|cut| cut.depth(offset) >= 0.0)
+        Cut { normal, height, distance: height / sine, angle, towards }
     }
 
     /// The planes that cut it: unit normal towards the middle, and the middle's distance from the plane in radii.
     pub(super) fn planes(&self) -> impl Iterator<Item = (DVec3, f64)> {
         self.cuts.iter().map(|cut| (cut.normal, cut.height))
-    }
-
-    /// Is it the whole disc?
-    #[inline]
-    pub(super) const fn is_whole(&self) -> bool {
-        self.cuts.is_empty()
     }
 
     /// How far the query is from the nearest plane that cuts the disc, in radii; if none does, as far as a plane would surely
@@ -133,10 +146,21 @@ impl Disc {
 
     /// Integral of the kernel's weight over the disc, in squared radii: its area, for the constant kernel.
     pub(super) fn integral(&self, kernel: Kernel) -> f64 {
-        if self.is_whole() {
-            return kernel.disc();
-        }
         let mut sum = 0.0;
+        match &self.cuts[..] {
+            [] => return kernel.disc(),
+            // The usual case, in which it is known without asking which border is where.
+            [cut] if cut.angle == 0.0 && (1e-6..1.0 - 1e-6).contains(&cut.distance) => {
+                let half = libm::acos(cut.distance);
+                for (from, to, border) in
+                    [(0.0, half, Some(cut)), (half, TAU - half, None), (TAU - half, TAU, Some(cut))]
+                {
+                    sum += sector(kernel, from, to, border);
+                }
+                return sum;
+            }
+            _ => {}
+        }
         self.sectors(|from, to, border| sum += sector(kernel, from, to, border));
         sum
     }
@@ -183,8 +207,16 @@ fn sector(kernel: Kernel, from: f64, to: f64, border: Option<&Cut>) -> f64 {
     }
 }
 
+impl Stranger {
+    /// Is it nearer than another, or as near and its id less?
+    #[inline]
+    fn is_nearer(&self, other: &Self) -> bool {
+        self.rank.0.total_cmp(&other.rank.0).then(self.rank.1.cmp(&other.rank.1)).is_lt()
+    }
+}
+
 impl Cut {
-    /// How far a point is on the query's side of the plane; negative beyond it.
+    /// How far a point (relative to the query, in radii) is on the query's side of the plane; negative beyond it.
     #[inline]
     fn depth(&self, offset: DVec3) -> f64 {
         self.normal.dot(offset) + self.height

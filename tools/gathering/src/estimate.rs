@@ -8,12 +8,12 @@ mod shorts;
 mod spread;
 mod sum;
 
-use super::disc::{Disc, Slope, Stranger};
-use super::surface::{Surface, on_same_surface};
+use super::disc::{Around, Disc, Slope, Stranger};
+use super::surface::{Kin, Surface, on_same_surface};
 use super::{Edges, EstimateOptions, Estimator, Kernel, Outcome};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use placed::{Placed, exponents};
-use pm_formats::{Bounds, Material, Photon, Query, unpack_direction};
+use pm_formats::{Bounds, Material, Photon, Query};
 use pm_maps::Nearest;
 pub(crate) use spread::Spread;
 use std::sync::Arc;
@@ -36,7 +36,8 @@ pub struct RadianceEstimate<'a> {
 pub struct Scratch {
     /// On the query's own surface: place and squared distance.
     own: Vec<(u32, f32)>,
-    strangers: Vec<Stranger>,
+    around: Around,
+    kin: Kin,
 }
 
 /// Cuts that leave less than this share of the disc are not made: next to no photon lies there, and where surfaces are a
@@ -138,53 +139,55 @@ impl<'a> RadianceEstimate<'a> {
         let surface = Surface { position: Vec3::from(position).as_dvec3(), normal, radius: radius_squared.sqrt() };
         let whole = || Disc::new(Vec3::from(normal).as_dvec3());
         let mut disc = whole();
-        self.sort_out(&surface, found, rim, scratch);
+        self.sort_out(&surface, found, scratch);
         let mut reach = disc.reach();
+        let mut integral = kernel.disc();
+        let mut with_cut_off = true;
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
-        if radius_squared.is_finite() && !scratch.strangers.is_empty() {
-            disc.cut(&scratch.strangers);
+        if radius_squared.is_finite() && !scratch.around.strangers().is_empty() {
+            disc.cut(&surface, &mut scratch.around, |around, number| self.stranger(&surface, around, number));
             reach = disc.reach();
-            if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
-                disc = whole();
-            }
-            if !disc.is_whole() {
-                scratch.own.retain(|&(place, _)| disc.holds(surface.offset(self.placed.position(place))));
-            }
+            integral = disc.integral(kernel);
+            with_cut_off = integral < LEAST_SHARE * kernel.disc();
             // Light behind a wall does not count, whatever the area.
-            if edges == Edges::Ignored {
-                disc = whole();
+            if with_cut_off || edges == Edges::Ignored {
+                (disc, integral) = (whole(), kernel.disc());
             }
         }
+        scratch.around.own(with_cut_off, self.placed_rim(rim, found), &mut scratch.own);
         let slope = if edges == Edges::Sloped { Slope::of(&disc, kernel) } else { None };
-        Lit { area: radius_squared * disc.integral(kernel), reach: reach * surface.radius, surface, slope }
+        Lit { area: radius_squared * integral, reach: reach * surface.radius, surface, slope }
     }
 
-    /// Sorts the photons found into those of the query's surface and strangers; `rim` (a place of the map that found it) is
-    /// not among the former.
-    fn sort_out(&self, surface: &Surface, found: &Nearest, rim: Option<u32>, scratch: &mut Scratch) {
-        scratch.own.clear();
-        scratch.strangers.clear();
+    /// Sorts the photons found into those of the query's surface and strangers.
+    fn sort_out(&self, surface: &Surface, found: &Nearest, Scratch { around, kin, .. }: &mut Scratch) {
+        around.clear();
+        kin.seen_from(surface.normal);
         let known = self.placed.knows(found);
-        // Photons of a plane have one normal, and often are found one after the other.
-        let mut last: Option<(u16, bool, DVec3)> = None;
-        for (distance, place) in found.places() {
-            let is_rim = Some(place) == rim;
-            let place = if known { place } else { self.placed.place(found.id(place)) };
-            let code = self.placed.code(place);
-            let (_, same, normal) = match last {
-                Some(last @ (of, ..)) if of == code => last,
-                _ => {
-                    let same = on_same_surface(self.placed.normal(code), surface.normal);
-                    (code, same, Vec3::from(unpack_direction::<7>(u32::from(code))).as_dvec3())
-                }
-            };
-            last = Some((code, same, normal));
-            if !same {
-                let rank = (distance, self.placed.id(place));
-                scratch.strangers.push(Stranger { rank, offset: surface.offset(self.placed.position(place)), normal });
-            } else if !is_rim {
-                scratch.own.push((place, distance));
+        found.for_photons(|places, distances| {
+            let mut is_own = |code| kin.is_same(code, |code| self.placed.normal(code));
+            if known {
+                around.add(places, distances, |place| self.placed.spot(place), &mut is_own);
+            } else {
+                let places: Vec<u32> = places.iter().map(|&place| self.placed.place(found.id(place))).collect();
+                around.add(&places, distances, |place| self.placed.spot(place), &mut is_own);
             }
+        });
+    }
+
+    /// The place of the rim's photon here, by its place in the map that found it.
+    fn placed_rim(&self, rim: Option<u32>, found: &Nearest) -> Option<u32> {
+        let known = self.placed.knows(found);
+        rim.map(|rim| if known { rim } else { self.placed.place(found.id(rim)) })
+    }
+
+    /// One of the photons around that do not lie on the query's surface.
+    fn stranger(&self, surface: &Surface, around: &Around, number: u32) -> Stranger {
+        let (place, distance) = (around.places[number as usize], around.distances[number as usize]);
+        Stranger {
+            rank: (distance, self.placed.id(place)),
+            offset: around.offset(surface, number),
+            normal: self.placed.direction(place),
         }
     }
 

@@ -209,6 +209,20 @@ impl Nearest {
         visit(&self.room.chosen.places[..self.room.chosen.len]);
     }
 
+    /// Calls `visit` with places and squared distances of the photons found, many at once.
+    #[inline(always)]
+    pub fn for_photons(&self, mut visit: impl FnMut(&[u32], &[f32])) {
+        for keys in self.keys.chunks(64) {
+            let (mut places, mut distances) = ([0; 64], [0.0; 64]);
+            for ((place, distance), &key) in places.iter_mut().zip(&mut distances).zip(keys) {
+                (*place, *distance) = (id_of(key), distance_of(key));
+            }
+            visit(&places[..keys.len()], &distances[..keys.len()]);
+        }
+        let chosen = &self.room.chosen;
+        visit(&chosen.places[..chosen.len], &chosen.distances[..chosen.len]);
+    }
+
     /// Ids of the photons by their places, if a map found them that has an order of its own.
     #[inline]
     #[must_use]

@@ -1,7 +1,8 @@
 //! The photons by their places in the map: what most estimates ask of them lies side by side where they are found together.
 
-use super::super::surface::coarse;
-use super::shorts::{Short, Shorts, Sum};
+use super::super::surface::{Spot, coarse};
+use super::shorts::{AT_ONCE, Short, Shorts, Sum};
+use glam::{DVec3, Vec3};
 use pm_formats::{Photon, unpack_direction, unpack_rgbe};
 use pm_maps::Nearest;
 use std::sync::{Arc, OnceLock};
@@ -18,11 +19,11 @@ pub(super) struct Placed<'a> {
     places: OnceLock<Vec<u32>>,
     /// By place.
     shorts: Shorts,
-    /// By place, if places are no ids.
-    positions: Vec<[f32; 3]>,
+    /// By place.
+    spots: Vec<Spot>,
     /// What powers are multiples of.
     unit: f64,
-    /// The surface normals that there are, in steps of 1/127.
+    /// The surface normals that there are, by their codes, in steps of 1/127.
     normals: Box<[[i8; 3]]>,
 }
 
@@ -37,7 +38,7 @@ impl<'a> Placed<'a> {
             order: None,
             places: OnceLock::new(),
             shorts: Shorts::of(photons, exponents),
-            positions: vec![],
+            spots: photons.iter().map(Spot::of).collect(),
             unit,
             normals,
         }
@@ -47,7 +48,7 @@ impl<'a> Placed<'a> {
     pub(super) fn in_order(mut self, order: Option<&Arc<[u32]>>) -> Self {
         if let Some(order) = order {
             self.shorts = self.shorts.in_order(order);
-            self.positions = order.iter().map(|&id| self.photons[id as usize].position).collect();
+            self.spots = order.iter().map(|&id| self.spots[id as usize]).collect();
             self.order = Some(Arc::clone(order));
         }
         self
@@ -67,7 +68,7 @@ impl<'a> Placed<'a> {
     /// Adds the photons in these places, if they are [`short`](Self::short).
     #[inline(always)]
     pub(super) fn add(&self, places: &[u32], to: &mut Sum) {
-        self.shorts.add(places.iter().copied(), to);
+        places.chunks(AT_ONCE).for_each(|places| self.shorts.add(places.iter().copied(), to));
     }
 
     /// All that is known of the photon in a place, from far away in memory.
@@ -75,20 +76,17 @@ impl<'a> Placed<'a> {
         &self.photons[self.id(place) as usize]
     }
 
-    /// Where the photon in a place is.
-    #[inline]
-    pub(super) fn position(&self, place: u32) -> [f32; 3] {
-        match &self.order {
-            Some(_) => self.positions[place as usize],
-            None => self.photons[place as usize].position,
-        }
+    /// Where the photon in a place is, and on what surface.
+    #[inline(always)]
+    pub(super) fn spot(&self, place: u32) -> Spot {
+        self.spots[place as usize]
     }
 
     /// Flux of these photons, times the number of emitted paths, if powers are short. Exact, where sums in double precision are.
     pub(super) fn sum(&self, photons: &[(u32, f32)]) -> Option<[f64; 3]> {
         let &(first, _) = photons.first()?;
         let mut sum = Sum::new(&self.shorts.get(first)?);
-        self.shorts.add(photons.iter().map(|photon| photon.0), &mut sum);
+        photons.chunks(AT_ONCE).for_each(|photons| self.shorts.add(photons.iter().map(|photon| photon.0), &mut sum));
         Some(sum.without(None).map(|power| power as f64 * self.unit))
     }
 
@@ -101,12 +99,6 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Code of the normal of the photon in a place.
-    #[inline]
-    pub(super) fn code(&self, place: u32) -> u16 {
-        self.shorts.get(place).map_or_else(|| self.photon(place).flags >> 2, |short| short.normal())
-    }
-
     /// The id of the photon in a place.
     #[inline]
     pub(super) fn id(&self, place: u32) -> u32 {
@@ -115,8 +107,13 @@ impl<'a> Placed<'a> {
 
     /// A normal by its code, in steps of 1/127.
     #[inline]
-    pub(super) fn normal(&self, code: u16) -> [i8; 3] {
-        self.normals[usize::from(code)]
+    pub(super) fn normal(&self, code: u32) -> [i8; 3] {
+        self.normals[code as usize]
+    }
+
+    /// Unit normal of the surface that the photon in a place lies on.
+    pub(super) fn direction(&self, place: u32) -> DVec3 {
+        Vec3::from(unpack_direction::<7>(self.spot(place).code)).as_dvec3()
     }
 
     /// Are these the places of the map that found them?

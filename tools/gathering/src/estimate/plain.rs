@@ -33,7 +33,7 @@ impl RadianceEstimate<'_> {
     /// Powers of the photons found, if all lie on the surface with this normal.
     #[inline]
     fn sum_of_short(&self, normal: [f32; 3], found: &Nearest) -> Option<Sum> {
-        let is_same = |photon: Short| on_same_surface(self.placed.normal(photon.normal()), normal);
+        let is_same = |photon: Short| on_same_surface(self.placed.normal(u32::from(photon.normal())), normal);
         let Some((_, place)) = found.farthest_place() else { return Some(Sum::new(&Short::default())) };
         let one = self.placed.short(place)?;
         let mut all = Sum::new(&one);

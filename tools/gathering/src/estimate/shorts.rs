@@ -11,6 +11,9 @@ const MOST_APART: u8 = 44;
 /// Powers whose exponents differ by no more than this take 16 bits.
 const MOST_PACKED: u8 = 8;
 
+/// Photons that are added up at once at most: 32 bits hold the sum of so many powers of 16 bits.
+pub(super) const AT_ONCE: usize = 1 << 16;
+
 /// Red, green and blue of a photon's power in units of the least, and the code of its normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(32))]
@@ -54,9 +57,11 @@ impl Short {
 pub(super) enum Shorts {
     /// Powers lie too far apart.
     None,
-    /// There are few kinds, as in most scenes: the kind of each, which takes two bytes, and what the kinds are. Kinds that are
-    /// not there are 0.
-    Kinds(Vec<u16>, Box<[Short; MOST_KINDS]>),
+    /// There are few kinds, as in most scenes: the kind of each, which takes two bytes, and what the kinds are, packed: a thousand
+    /// of them stay in the nearest cache. Kinds that are not there are 0.
+    Kinds(Vec<u16>, Box<[u64; MOST_KINDS]>),
+    /// The same where powers do not fit 16 bits.
+    WideKinds(Vec<u16>, Box<[Short; MOST_KINDS]>),
     /// Each its own, packed.
     Each(Vec<u64>),
 }
@@ -70,7 +75,10 @@ impl Shorts {
         let mut kinds = Kinds::new();
         let of: Option<Vec<u16>> = photons.iter().map(|photon| kinds.number(photon)).collect();
         match of {
-            Some(of) => Self::Kinds(of, kinds.finish(photons, least)),
+            Some(of) if most - least > MOST_PACKED => {
+                Self::WideKinds(of, kinds.finish(photons, |of| Short::new(of, least)))
+            }
+            Some(of) => Self::Kinds(of, kinds.finish(photons, |of| Short::new(of, least).packed())),
             None if most - least > MOST_PACKED => Self::None,
             None => Self::Each(photons.iter().map(|photon| Short::new(photon, least).packed()).collect()),
         }
@@ -80,8 +88,9 @@ impl Shorts {
     pub(super) fn in_order(self, order: &[u32]) -> Self {
         match self {
             Self::None => Self::None,
-            Self::Kinds(of, kinds) => Self::Kinds(order.iter().map(|&id| of[id as usize]).collect(), kinds),
-            Self::Each(each) => Self::Each(order.iter().map(|&id| each[id as usize]).collect()),
+            Self::Kinds(of, kinds) => Self::Kinds(ordered(&of, order), kinds),
+            Self::WideKinds(of, kinds) => Self::WideKinds(ordered(&of, order), kinds),
+            Self::Each(each) => Self::Each(ordered(&each, order)),
         }
     }
 
@@ -90,20 +99,27 @@ impl Shorts {
     pub(super) fn get(&self, place: u32) -> Option<Short> {
         match self {
             Self::None => None,
-            Self::Kinds(of, kinds) => Some(kinds[usize::from(of[place as usize])]),
+            Self::Kinds(of, kinds) => Some(Short::unpacked(kinds[usize::from(of[place as usize])])),
+            Self::WideKinds(of, kinds) => Some(kinds[usize::from(of[place as usize])]),
             Self::Each(each) => Some(Short::unpacked(each[place as usize])),
         }
     }
 
-    /// Adds the photons in these places. Sums of up to 2^12 powers do not overflow, whatever they are.
+    /// Adds the photons in these places, [`AT_ONCE`] at most. Sums of up to 2^12 powers do not overflow, whatever they are.
     #[inline]
     pub(super) fn add(&self, places: impl Iterator<Item = u32>, to: &mut Sum) {
         match self {
             Self::None => {}
-            Self::Kinds(of, kinds) => to.add_all(places.map(|place| &kinds[usize::from(of[place as usize])])),
-            Self::Each(each) => to.add_all(places.map(|place| Short::unpacked(each[place as usize]))),
+            Self::Kinds(of, kinds) => to.add_packed(places.map(|place| kinds[usize::from(of[place as usize])])),
+            Self::WideKinds(of, kinds) => to.add_all(places.map(|place| &kinds[usize::from(of[place as usize])])),
+            Self::Each(each) => to.add_packed(places.map(|place| each[place as usize])),
         }
     }
+}
+
+/// What photons are, in this order of their ids.
+fn ordered<T: Copy>(of: &[T], order: &[u32]) -> Vec<T> {
+    order.iter().map(|&id| of[id as usize]).collect()
 }
 
 /// Kinds of photons, numbered as they come.
@@ -144,9 +160,10 @@ impl Kinds {
         }
     }
 
-    fn finish(self, photons: &[Photon], least: u8) -> Box<[Short; MOST_KINDS]> {
-        let mut kinds: Vec<Short> = self.first.iter().map(|&id| Short::new(&photons[id as usize], least)).collect();
-        kinds.resize(MOST_KINDS, Short::default());
+    /// What the kinds are, each by the first photon of it.
+    fn finish<T: Copy + Default>(self, photons: &[Photon], what: impl Fn(&Photon) -> T) -> Box<[T; MOST_KINDS]> {
+        let mut kinds: Vec<T> = self.first.iter().map(|&id| what(&photons[id as usize])).collect();
+        kinds.resize(MOST_KINDS, T::default());
         kinds.into_boxed_slice().try_into().unwrap_or_else(|_| unreachable!("as long as that"))
     }
 }
@@ -178,6 +195,21 @@ impl Sum {
             others |= of[3] ^ normal;
         }
         (self.sums, self.others) = ([red, green, blue], others);
+    }
+
+    /// The same of packed ones, of which two powers are added at once.
+    #[inline(always)]
+    fn add_packed(&mut self, photons: impl Iterator<Item = u64>) {
+        const EVERY_OTHER: u64 = 0xffff_0000_ffff;
+        let (mut red_blue, mut green_normal, mut others, normal) = (0, 0, 0, self.normal << 48);
+        for word in photons {
+            red_blue += word & EVERY_OTHER;
+            green_normal += word >> 16 & EVERY_OTHER;
+            others |= word ^ normal;
+        }
+        let of = [red_blue & 0xffff_ffff, green_normal & 0xffff_ffff, red_blue >> 32];
+        (0..3).for_each(|channel| self.sums[channel] += of[channel]);
+        self.others |= others >> 48;
     }
 
     /// Have all of them one normal?
@@ -212,7 +244,9 @@ mod tests {
             let shorts = Shorts::of(&photons, (100, 100 + apart)).in_order(&order);
             let is_there = apart <= 8 || apart <= 44 && count <= MOST_KINDS;
             assert_eq!(!matches!(shorts, Shorts::None), is_there, "{count} {apart}");
-            assert_eq!(matches!(shorts, Shorts::Kinds(..)), is_there && count <= MOST_KINDS, "{count} {apart}");
+            let has_kinds = is_there && count <= MOST_KINDS;
+            assert_eq!(matches!(shorts, Shorts::Kinds(..)), has_kinds && apart <= 8, "{count} {apart}");
+            assert_eq!(matches!(shorts, Shorts::WideKinds(..)), has_kinds && apart > 8, "{count} {apart}");
             if !is_there {
                 continue;
             }
@@ -232,5 +266,12 @@ mod tests {
             assert_eq!(sum.without(None).map(|power| power as f64 * unit), powers, "{count}");
             assert_eq!(sum.is_plane(), places.iter().all(|&place| of(place).flags == of(5).flags));
         }
+        // As many as are added at once, of the greatest power: in 32 bits each.
+        let photon = Photon { power: [255, 0, 255, 108], flags: 5 << 2, ..bytemuck::Zeroable::zeroed() };
+        let shorts = Shorts::of(&[photon], (100, 108));
+        let mut sum = Sum::new(&shorts.get(0).unwrap());
+        shorts.add([0; AT_ONCE].into_iter(), &mut sum);
+        assert_eq!(sum.without(None), [255 << 24, 0, 255 << 24]);
+        assert!(sum.is_plane());
     }
 }

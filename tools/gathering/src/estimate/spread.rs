@@ -36,10 +36,12 @@ impl RadianceEstimate<'_> {
         let normal = photon.normal();
         let position = Vec3::from(photon.position).as_dvec3();
         let surface = Surface { position, normal, radius: radius_squared.sqrt() };
-        self.sort_out(&surface, found, None, scratch);
+        self.sort_out(&surface, found, scratch);
         let whole = || Disc::new(Vec3::from(normal).as_dvec3());
         let mut disc = whole();
-        disc.cut_up_to(most_cuts, &scratch.strangers);
+        disc.cut_up_to(most_cuts, &surface, &mut scratch.around, |around, number| {
+            self.stranger(&surface, around, number)
+        });
         // As where a query has the disc.
         if disc.integral(kernel) < LEAST_SHARE * kernel.disc() {
             disc = whole();

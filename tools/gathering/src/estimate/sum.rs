@@ -54,7 +54,7 @@ impl RadianceEstimate<'_> {
             };
             let weight = match slope {
                 None => weight,
-                Some(slope) => weight * slope.weight(surface.offset(self.placed.position(place))),
+                Some(slope) => weight * slope.weight(surface.offset(self.placed.spot(place).position)),
             };
             match brdf {
                 None => (0..3).for_each(|channel| sum[channel] += weight * power[channel]),

@@ -25,6 +25,9 @@ proptest! {
         expected.truncate(k);
         prop_assert_eq!(found.sorted(), expected.clone());
         prop_assert_eq!(found.farthest(), expected.last().copied());
+        let mut together = vec![];
+        found.for_photons(|ids, distances| together.extend(distances.iter().copied().zip(ids.iter().copied())));
+        prop_assert_eq!(together, found.places().collect::<Vec<_>>());
     }
 }
 
