@@ -94,9 +94,11 @@ impl Disc {
     ) {
         while self.cuts.len() < most {
             let mut nearest: Option<(f32, Stranger, Plane)> = None;
-            for &number in around.strangers() {
-                // Most are farther than the nearest so far, and more is not asked of them.
-                let distance = around.distances[number as usize];
+            // The nearest is asked first: then most of the others are too far to be asked more than that.
+            let distance = |number: u32| around.distances[number as usize];
+            let first = around.strangers().iter().copied().min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            for number in first.into_iter().chain(around.strangers().iter().copied()) {
+                let distance = distance(number);
                 if nearest.is_some_and(|(nearest, ..)| distance > nearest) {
                     continue;
                 }

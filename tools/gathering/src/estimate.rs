@@ -38,6 +38,21 @@ pub struct Scratch {
     own: Vec<(u32, f32)>,
     around: Around,
     kin: Kin,
+    /// Had the query before photons of other surfaces about it?
+    near_edge: bool,
+    /// The normal of the query before, packed and unpacked.
+    last: Option<(u32, [f32; 3])>,
+}
+
+impl Scratch {
+    /// A query's normal, which often is that of the query before.
+    #[inline]
+    fn normal(&mut self, query: &Query) -> [f32; 3] {
+        match self.last {
+            Some((packed, normal)) if packed == query.normal => normal,
+            _ => self.last.insert((query.normal, query.normal())).1,
+        }
+    }
 }
 
 /// Cuts that leave less than this share of the disc are not made: next to no photon lies there, and where surfaces are a
@@ -69,14 +84,16 @@ impl<'a> RadianceEstimate<'a> {
     /// What `query` adds to its pixel, given the photons found for it.
     #[must_use]
     pub fn contribution(&self, query: &Query, found: &Nearest, scratch: &mut Scratch) -> Outcome {
-        let normal = query.normal();
+        let normal = scratch.normal(query);
         let rim = match self.rim(found) {
             Ok(known) => known,
             Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
             Err(Nothing::NoArea) => return Outcome::NoArea,
         };
         let material = &self.materials[usize::from(query.material)];
-        let (reflected, area) = match self.plain(&rim, normal, material, found) {
+        // Next to a query near an edge is another, and what is asked of it is not the usual case.
+        let plain = if scratch.near_edge { None } else { self.plain(&rim, normal, material, found) };
+        let (reflected, area) = match plain {
             Some(known) => known,
             None => {
                 let Lit { surface, area, slope, .. } = self.area(query.position, normal, &rim, found, scratch);
@@ -140,11 +157,12 @@ impl<'a> RadianceEstimate<'a> {
         let whole = || Disc::new(Vec3::from(normal).as_dvec3());
         let mut disc = whole();
         self.sort_out(&surface, found, scratch);
+        scratch.near_edge = !scratch.around.strangers().is_empty();
         let mut reach = disc.reach();
         let mut integral = kernel.disc();
         let mut with_cut_off = true;
         // An edge that the disc of a limit reaches is as real as one that the k-th photon's does.
-        if radius_squared.is_finite() && !scratch.around.strangers().is_empty() {
+        if radius_squared.is_finite() && scratch.near_edge {
             disc.cut(&surface, &mut scratch.around, |around, number| self.stranger(&surface, around, number));
             reach = disc.reach();
             integral = disc.integral(kernel);

@@ -68,7 +68,7 @@ impl<'a> Placed<'a> {
     /// Adds the photons in these places, if they are [`short`](Self::short).
     #[inline(always)]
     pub(super) fn add(&self, places: &[u32], to: &mut Sum) {
-        places.chunks(AT_ONCE).for_each(|places| self.shorts.add(places.iter().copied(), to));
+        places.chunks(AT_ONCE).for_each(|places| self.shorts.add(places, |&place| place, to));
     }
 
     /// All that is known of the photon in a place, from far away in memory.
@@ -86,7 +86,7 @@ impl<'a> Placed<'a> {
     pub(super) fn sum(&self, photons: &[(u32, f32)]) -> Option<[f64; 3]> {
         let &(first, _) = photons.first()?;
         let mut sum = Sum::new(&self.shorts.get(first)?);
-        photons.chunks(AT_ONCE).for_each(|photons| self.shorts.add(photons.iter().map(|photon| photon.0), &mut sum));
+        photons.chunks(AT_ONCE).for_each(|photons| self.shorts.add(photons, |photon| photon.0, &mut sum));
         Some(sum.without(None).map(|power| power as f64 * self.unit))
     }
 

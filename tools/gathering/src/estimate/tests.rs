@@ -310,3 +310,32 @@ fn the_order_of_a_map_changes_nothing() {
         }
     }
 }
+
+#[test]
+fn what_is_remembered_of_the_query_before_changes_nothing() {
+    // On the floor and on a wall, in the corner and far from it, by turns and one after the other.
+    let mut random = Random::new(&[15]);
+    let photons = corner(&mut random, 2000.0, 0.01, 2);
+    let wide = WideTree::build(&photons).unwrap();
+    for edges in [Edges::Cut, Edges::Ignored] {
+        let options = EstimateOptions { k: 40, edges, ..OPTIONS };
+        let materials = material();
+        let estimate = RadianceEstimate::new(&photons, &materials, 1, options).in_order(wide.order());
+        let (mut found, mut scratch) = (Nearest::new(40, 0.0), Scratch::default());
+        let (mut near, mut far) = (0, 0);
+        for _ in 0..600 {
+            let along = (random.unit() * 3.0).floor() * 0.15;
+            let (position, normal) = match random.unit() < 0.7 {
+                true => ([along, 0.0, along + 0.02], UP),
+                false => ([-0.01, along + 0.01, along], [1.0, 0.0, 0.0]),
+            };
+            let (normal, view) = Query::pack_vectors(normal, UP);
+            let query = Query { position, normal, view, ..query() };
+            Search::new(40, f32::INFINITY).run(&wide, position, &mut found, &mut Blind);
+            let outcome = estimate.contribution(&query, &found, &mut scratch);
+            assert_eq!(outcome, estimate.contribution(&query, &found, &mut Scratch::default()));
+            *if scratch.near_edge { &mut near } else { &mut far } += 1;
+        }
+        assert!(near > 100 && far > 100, "{near} {far}");
+    }
+}
