@@ -43,7 +43,14 @@ impl Query {
     /// Packs the two unit vectors of a query.
     #[must_use]
     pub fn pack_vectors(normal: [f32; 3], view: [f32; 3]) -> (u32, u32) {
-        (pack_direction::<16>(normal), pack_direction::<16>(view))
+        (Self::pack_vector(normal), Self::pack_vector(view))
+    }
+
+    /// Packs one of the two unit vectors of a query.
+    #[must_use]
+    #[inline]
+    pub fn pack_vector(unit: [f32; 3]) -> u32 {
+        pack_direction::<16>(unit)
     }
 
     /// Unit normal of the surface, on the viewer's side.

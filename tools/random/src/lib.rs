@@ -37,8 +37,14 @@ impl Random {
     #[inline]
     pub fn next_u64(&mut self) -> u64 {
         let value = mix(self.0);
-        self.0 = self.0.wrapping_add(GOLDEN);
+        self.skip();
         value
+    }
+
+    /// Takes a number that nobody looks at.
+    #[inline]
+    pub const fn skip(&mut self) {
+        self.0 = self.0.wrapping_add(GOLDEN);
     }
 
     /// The next number in [0, 1), a multiple of 2^-24.
@@ -64,6 +70,14 @@ mod tests {
             4_593_380_528_125_082_431,
         ];
         assert_eq!([(); 4].map(|()| random.next_u64()), expected);
+    }
+
+    #[test]
+    fn what_is_skipped_is_taken() {
+        let (mut skipped, mut taken) = (Random::new(&[5]), Random::new(&[5]));
+        skipped.skip();
+        let _ = taken.next_u64();
+        assert_eq!(skipped.next_u64(), taken.next_u64());
     }
 
     #[test]

@@ -186,7 +186,8 @@ pub(super) fn may_be_cached(material: &Material) -> bool {
 
 /// The points seen in a pixel whose irradiance may be cached, in order.
 fn cacheable(rays: &GatherRays<'_>, x: u32, y: u32) -> impl Iterator<Item = VisiblePoint> {
-    let (points, _) = rays.see([x, y], &mut |_| {});
+    let mut points = vec![];
+    rays.see([x, y], &mut points, &mut |_| {});
     points.into_iter().filter(|visible| may_be_cached(rays.material(visible)))
 }
 

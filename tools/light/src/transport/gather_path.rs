@@ -9,6 +9,7 @@ use super::reflection::{Reflection, Spread};
 use super::roulette::patience;
 use super::scatter::{choose, specular, spread_shares};
 use super::surface::{SurfacePoint, Surfaces};
+use crate::scene::{Material, MaterialKind};
 use glam::Vec3;
 use pm_random::Random;
 
@@ -17,6 +18,8 @@ pub(super) struct GatherPaths<'a> {
     pub(super) surfaces: Surfaces<'a>,
     pub(super) lights: Lights,
     options: GatherOptions,
+    /// By material: does every ray end there, whole, and is that all?
+    ends: Vec<bool>,
 }
 
 /// Where a gather ray ends.
@@ -50,7 +53,9 @@ pub(super) struct PathRandom<L: Fn() -> Random> {
 
 impl<'a> GatherPaths<'a> {
     pub(super) fn new(surfaces: Surfaces<'a>, options: GatherOptions) -> Self {
-        Self { lights: Lights::new(surfaces.scene), surfaces, options }
+        let lights = Lights::new(surfaces.scene);
+        let ends = surfaces.scene.materials.iter().map(|material| ends_every_ray(material, options)).collect();
+        Self { surfaces, lights, options, ends }
     }
 
     /// Casts one gather ray of this weight from a point, and one bounce further if it is too short. A lamp met counts by its
@@ -61,11 +66,28 @@ impl<'a> GatherPaths<'a> {
         (direction, techniques): (Vec3, Techniques),
         weight: Vec3,
         random: &mut PathRandom<impl Fn() -> Random>,
-        light: &mut impl FnMut(Vec3),
+        light: &mut (impl FnMut(Vec3) + ?Sized),
+        counts: &mut RayCounts,
+    ) -> Option<End> {
+        let first = self.surfaces.hit(from.start(direction), direction)?;
+        self.cast_to(from, (direction, techniques), first, weight, random, light, counts)
+    }
+
+    /// The same for a ray that is known to meet this surface first.
+    #[inline]
+    #[expect(clippy::too_many_arguments, reason = "those of cast, and one more")]
+    pub(super) fn cast_to(
+        &self,
+        from: &SurfacePoint,
+        (direction, techniques): (Vec3, Techniques),
+        first: SurfacePoint,
+        weight: Vec3,
+        random: &mut PathRandom<impl Fn() -> Random>,
+        light: &mut (impl FnMut(Vec3) + ?Sized),
         counts: &mut RayCounts,
     ) -> Option<End> {
         let lamps = Lamps { direct: techniques, behind_specular: self.options.caustics };
-        let end = self.follow(from, direction, weight, lamps, light, &mut random.path)?;
+        let end = self.follow(from, (first, direction), weight, lamps, light, &mut random.path)?;
         if end.length >= self.options.min_gather_dist {
             return Some(end);
         }
@@ -81,7 +103,7 @@ impl<'a> GatherPaths<'a> {
     fn continued(
         &self,
         end: &End,
-        light: &mut impl FnMut(Vec3),
+        light: &mut (impl FnMut(Vec3) + ?Sized),
         random: &mut PathRandom<impl Fn() -> Random>,
     ) -> Option<End> {
         let PathRandom { path: random, light_at_short_end } = random;
@@ -95,23 +117,45 @@ impl<'a> GatherPaths<'a> {
         let (u, v) = (random.unit(), random.unit());
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         let lamps = Lamps { direct: techniques, behind_specular: true };
-        let further = self.follow(&end.point, direction, end.weight * weight, lamps, light, random)?;
+        let first = self.surfaces.hit(end.point.start(direction), direction)?;
+        let further = self.follow(&end.point, (first, direction), end.weight * weight, lamps, light, random)?;
         Some(End { behind_specular: end.behind_specular || further.behind_specular, ..further })
     }
 
-    /// Follows a gather ray through mirrors and glass to the surface where it ends, one that spreads light.
+    /// Follows a gather ray from the first surface met, through mirrors and glass, to the surface where it ends, one that
+    /// spreads light.
+    #[inline]
     fn follow(
         &self,
         start: &SurfacePoint,
-        mut direction: Vec3,
+        (point, direction): (SurfacePoint, Vec3),
+        weight: Vec3,
+        lamps: Lamps,
+        light: &mut (impl FnMut(Vec3) + ?Sized),
+        random: &mut Random,
+    ) -> Option<End> {
+        if self.ends[usize::from(point.material)] {
+            // As below, without a look at the number that decides.
+            random.skip();
+            let length = point.position.distance(start.position);
+            return Some(End { point, view: -direction, weight, behind_specular: false, length });
+        }
+        self.follow_from(start, (point, direction), weight, lamps, light, random)
+    }
+
+    /// The same where it may go on.
+    fn follow_from(
+        &self,
+        start: &SurfacePoint,
+        (first, mut direction): (SurfacePoint, Vec3),
         mut weight: Vec3,
         lamps: Lamps,
-        light: &mut impl FnMut(Vec3),
+        light: &mut (impl FnMut(Vec3) + ?Sized),
         random: &mut Random,
     ) -> Option<End> {
         let (mut from, mut length) = (*start, 0.0);
+        let mut point = first;
         for hits in 0.. {
-            let point = self.surfaces.hit(from.start(direction), direction)?;
             length += point.position.distance(from.position);
             let material = self.surfaces.material(&point);
             if self.options.direct && material.emits() && point.facing == point.front {
@@ -153,7 +197,17 @@ impl<'a> GatherPaths<'a> {
             weight *= way.share * (chosen * patient * (total / specular_share));
             from = point;
             direction = way.direction;
+            point = self.surfaces.hit(from.start(direction), direction)?;
         }
         None
     }
+}
+
+/// Does every ray that meets such a surface end there, with all of its weight, and with no light seen?
+fn ends_every_ray(material: &Material, options: GatherOptions) -> bool {
+    let (diffuse, lobe) = spread_shares(material);
+    let passes_on = matches!(material.kind, MaterialKind::Mirror | MaterialKind::Glass);
+    // What is next to nothing might not be chosen, by rounding.
+    let spreads = diffuse.max_element() + lobe.max_element() >= f32::MIN_POSITIVE;
+    spreads && !passes_on && !(options.direct && material.emits())
 }

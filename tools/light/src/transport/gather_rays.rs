@@ -2,6 +2,7 @@
 //!
 //! Steinhurst, Coombe, Lastra, *Reordering for Cache Conscious Photon Mapping*, GI 2005, Fig. 3 and Fig. 5.
 
+use super::bvh::{Ray, RayHit};
 use super::direct::{Techniques, direct_light};
 use super::eye::{Eye, VisiblePoint};
 use super::gather_options::GatherOptions;
@@ -12,12 +13,40 @@ use super::query::query_at;
 use super::ray_counts::RayCounts;
 use super::reflection::Reflection;
 use super::strata::{Strata, StrataGrid};
-use super::surface::Surfaces;
+use super::surface::{SurfacePoint, Surfaces};
 use crate::scene::{Camera, Material};
 use glam::Vec3;
 use pm_formats::{Photon, Query};
 use pm_random::Random;
 use std::borrow::Cow;
+
+/// Gather rays of one point: all are chosen, then all are cast, and then it is seen where they end, so that none has to wait
+/// for what another finds. Room that is used again.
+#[derive(Default)]
+pub(super) struct Batch {
+    rays: Vec<Ray>,
+    started: Vec<Started>,
+    hits: Vec<Option<RayHit>>,
+}
+
+/// What is known of a gather ray before it is cast.
+struct Started {
+    sample: u32,
+    weight: Vec3,
+    random: Random,
+}
+
+impl Batch {
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.started.clear();
+    }
+
+    fn add(&mut self, from: &SurfacePoint, direction: Vec3, started: Started) {
+        self.rays.push(Ray { origin: from.start(direction), direction, far: f32::INFINITY });
+        self.started.push(started);
+    }
+}
 
 /// Casts the rays of a picture.
 pub struct GatherRays<'a> {
@@ -83,12 +112,15 @@ impl<'a> GatherRays<'a> {
         self.paths.surfaces.material(&visible.point)
     }
 
-    /// The points seen in a pixel, in order, and the number of eye rays that found them; what is emitted on the way goes
-    /// to `light`.
-    pub(super) fn see(&self, [x, y]: [u32; 2], light: &mut impl FnMut(Vec3)) -> (Vec<VisiblePoint>, u64) {
-        let mut points = vec![];
-        let eye_rays = self.eye.see(&self.paths.surfaces, x, y, &mut points, light);
-        (points, eye_rays)
+    /// Adds the points seen in a pixel, in order, and returns the number of eye rays that found them; what is emitted on the
+    /// way goes to `light`.
+    pub(super) fn see(
+        &self,
+        [x, y]: [u32; 2],
+        points: &mut Vec<VisiblePoint>,
+        light: &mut impl FnMut(Vec3),
+    ) -> u64 {
+        self.eye.see(&self.paths.surfaces, x, y, points, light)
     }
 
     /// Which rays look for the lamps at a point of this reflection, from which gather rays are cast.
@@ -103,7 +135,7 @@ impl<'a> GatherRays<'a> {
         pixel: u32,
         visible: &VisiblePoint,
         gathered: bool,
-        light: &mut impl FnMut(Vec3),
+        light: &mut dyn FnMut(Vec3),
     ) {
         let GatherOptions { seed, direct, .. } = self.options;
         if direct {
@@ -141,8 +173,8 @@ impl<'a> GatherRays<'a> {
         visible: &VisiblePoint,
         strata: &[u32],
         query: &mut impl FnMut(Query, bool),
-        light: &mut impl FnMut(Vec3),
-        counts: &mut RayCounts,
+        light: &mut dyn FnMut(Vec3),
+        (batch, counts): (&mut Batch, &mut RayCounts),
     ) {
         let GatherOptions { gathers, seed, spread, .. } = self.options;
         let (point, number) = (&visible.point, visible.number);
@@ -153,17 +185,36 @@ impl<'a> GatherRays<'a> {
         counts.guided += u64::from(guide.is_some() && strata.contains(&0));
         let [of_path, of_light] = [Purpose::GatherRay, Purpose::LightAtShortEnd]
             .map(|purpose| Random::new(&[seed, purpose as u64, pixel.into()]));
+        // Where all rays weigh the same.
+        let even = reflection.even(spread, guide.as_ref()).map(|weight| visible.share * weight / gathers as f32);
+        batch.clear();
         for &stratum in strata {
-            counts.gather += 1;
             let sample = number * gathers + stratum;
-            let mut random =
-                PathRandom { path: of_path.with(sample.into()), light_at_short_end: || of_light.with(sample.into()) };
-            let (u, v) = self.strata.point(stratum, &mut random.path);
+            let mut random = of_path.with(sample.into());
+            let (u, v) = self.strata.point(stratum, &mut random);
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-            let chosen = reflection.sample(spread, guide.as_ref(), u, v, &mut random.path);
-            let end = chosen.and_then(|(direction, weight)| {
-                let weight = visible.share * weight / gathers as f32;
-                self.paths.cast(point, (direction, techniques), weight, &mut random, light, counts)
+            let chosen = match even {
+                Some(weight) => Some((reflection.cosine_direction(u, v), weight)),
+                None => {
+                    let chosen = reflection.sample(spread, guide.as_ref(), u, v, &mut random);
+                    chosen.map(|(direction, weight)| (direction, visible.share * weight / gathers as f32))
+                }
+            };
+            if let Some((direction, weight)) = chosen {
+                batch.add(point, direction, Started { sample, weight, random });
+            }
+        }
+        counts.gather += strata.len() as u64;
+        counts.gather_lost += (strata.len() - batch.rays.len()) as u64;
+        self.paths.surfaces.hit_each(&batch.rays, &mut batch.hits);
+        for ((ray, started), hit) in batch.rays.iter().zip(&batch.started).zip(&batch.hits) {
+            let (sample, direction) = (started.sample, ray.direction);
+            let mut random =
+                PathRandom { path: started.random.clone(), light_at_short_end: || of_light.with(sample.into()) };
+            let end = hit.and_then(|hit| {
+                let first = self.paths.surfaces.point(hit, direction);
+                let how = (direction, techniques);
+                self.paths.cast_to(point, how, first, started.weight, &mut random, light, counts)
             });
             match end {
                 Some(end) => query(query_at(&end.point, end.view, pixel, sample, end.weight), end.behind_specular),

@@ -3,12 +3,12 @@
 use super::cache_records::{CacheRecords, may_be_cached};
 use super::eye::VisiblePoint;
 use super::gather_options::Method;
-use super::gather_rays::GatherRays;
+use super::gather_rays::{Batch, GatherRays};
 use super::query::query_at;
 use super::ray_counts::RayCounts;
 use glam::Vec3;
 use pm_formats::Query;
-use pm_orders::Pass;
+use pm_orders::{Pass, VisiblePoints};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -19,6 +19,12 @@ pub struct PixelCaster<'a> {
     cache: Option<&'a CacheRecords>,
     /// By pixel: the points seen, and the number of eye rays that found them.
     seen: HashMap<u32, (Vec<VisiblePoint>, u64)>,
+    /// What is seen through a pixel that no other pass comes to: room that is used again.
+    once: Vec<VisiblePoint>,
+    /// The gather rays of a point.
+    batch: Batch,
+    /// The queries of a visit.
+    found: Vec<Query>,
     /// Queries that wait for the end of their batch.
     queued: Vec<Query>,
 }
@@ -43,7 +49,7 @@ impl<'a> PixelCaster<'a> {
     /// were placed at a pixel are.
     #[must_use]
     pub fn new(rays: &'a GatherRays<'a>, cache: Option<&'a CacheRecords>) -> Self {
-        Self { rays, cache, seen: HashMap::new(), queued: vec![] }
+        Self { rays, cache, seen: HashMap::new(), once: vec![], batch: Batch::default(), found: vec![], queued: vec![] }
     }
 
     /// The queries since the last time that are to wait, in order: of gather rays that went by a mirror or through glass, if
@@ -63,11 +69,12 @@ impl<'a> PixelCaster<'a> {
         at: [u32; 2],
         pass: impl Into<Pass>,
         query: impl FnMut(Query),
-        light: impl FnMut(Vec3),
+        mut light: impl FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
         let mut all = 0..u64::MAX;
-        self.visit(at, Wanted { pass: pass.into(), rays: &mut all }, self.cache, query, light, counts);
+        self.visit(at, Wanted { pass: pass.into(), rays: &mut all }, self.cache, &mut light, counts);
+        self.found.drain(..).for_each(query);
     }
 
     /// Casts some of the gather rays of one pixel and pass: those with numbers in `rays`, counted from the first that
@@ -84,7 +91,8 @@ impl<'a> PixelCaster<'a> {
         counts: &mut RayCounts,
     ) {
         let mut now = RayCounts::default();
-        self.visit(at, Wanted { pass, rays }, None, query, |_| {}, &mut now);
+        self.visit(at, Wanted { pass, rays }, None, &mut |_| {}, &mut now);
+        self.found.drain(..).for_each(query);
         *counts += RayCounts { eye: 0, eye_again: now.eye + now.eye_again, seen: 0, ..now };
     }
 
@@ -93,15 +101,14 @@ impl<'a> PixelCaster<'a> {
         [x, y]: [u32; 2],
         wanted: Wanted<'_>,
         cache: Option<&CacheRecords>,
-        mut query: impl FnMut(Query),
-        mut light: impl FnMut(Vec3),
+        light: &mut dyn FnMut(Vec3),
         counts: &mut RayCounts,
     ) {
-        let Self { rays: cast, seen, queued, .. } = self;
+        let Self { rays: cast, seen, once, batch, found: asked, queued, .. } = self;
         let queues = cast.options.queue_specular;
         let mut query = |one: Query, behind_specular: bool| match queues && behind_specular {
             true => queued.push(one),
-            false => query(one),
+            false => asked.push(one),
         };
         let pixel = y * cast.size()[0] + x;
         let Wanted { pass: Pass { points, bin }, rays } = wanted;
@@ -112,19 +119,30 @@ impl<'a> PixelCaster<'a> {
                 light(radiance);
             }
         };
-        if first_pass {
-            // Light is to be told even if a pixel should be begun twice.
-            seen.remove(&pixel);
-        }
-        let (found, eye_rays) = seen.entry(pixel).or_insert_with(|| cast.see([x, y], &mut eye_light));
-        *(if first_pass { &mut counts.eye } else { &mut counts.eye_again }) += *eye_rays;
+        let (found, eye_rays) = if points == VisiblePoints::All && cast.strata.bins() == 1 {
+            once.clear();
+            let eye_rays = cast.see([x, y], once, &mut eye_light);
+            (&*once, eye_rays)
+        } else {
+            if first_pass {
+                // Light is to be told even if a pixel should be begun twice.
+                seen.remove(&pixel);
+            }
+            let (found, eye_rays) = seen.entry(pixel).or_insert_with(|| {
+                let mut points = vec![];
+                let eye_rays = cast.see([x, y], &mut points, &mut eye_light);
+                (points, eye_rays)
+            });
+            (&*found, *eye_rays)
+        };
+        *(if first_pass { &mut counts.eye } else { &mut counts.eye_again }) += eye_rays;
         for visible in found.iter().filter(|visible| points.include(visible.behind_specular)) {
             counts.seen += u64::from(bin == 0);
             match cast.options.method {
                 Method::FinalGather => {
                     let cached = cache.is_some() && may_be_cached(cast.material(visible));
                     if bin == 0 {
-                        cast.direct_light(pixel, visible, !cached, &mut light);
+                        cast.direct_light(pixel, visible, !cached, light);
                     }
                     if cached {
                         continue;
@@ -132,7 +150,7 @@ impl<'a> PixelCaster<'a> {
                     let wanted = take(rays, cast.strata.of_bin(bin).len());
                     if !wanted.is_empty() {
                         let strata = cast.strata_of(pixel, visible, bin);
-                        cast.gather(pixel, visible, &strata[wanted], &mut query, &mut light, counts);
+                        cast.gather(pixel, visible, &strata[wanted], &mut query, light, (batch, counts));
                     }
                 }
                 Method::DirectVisualisation => {

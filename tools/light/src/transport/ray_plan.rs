@@ -160,7 +160,8 @@ fn look(rays: &GatherRays<'_>, span: Span) -> Seen {
     let mut counts = RayCounts::default();
     let points = stretches(&span).map(|columns| {
         columns.fold([0; 2], |sum, x| {
-            let (points, eye_rays) = rays.see([x, span.row], &mut |_| {});
+            let mut points = vec![];
+            let eye_rays = rays.see([x, span.row], &mut points, &mut |_| {});
             counts.eye += eye_rays;
             counts.seen += points.len() as u64;
             let behind = points.iter().filter(|visible| visible.behind_specular).count();

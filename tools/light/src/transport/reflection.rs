@@ -73,6 +73,19 @@ impl Reflection {
         (self.exponent + 1.0) / (2.0 * PI) * self.lobe(direction)
     }
 
+    /// What every direction carries that [`sample`](Self::sample) chooses, where it is the same for all: those are
+    /// [by the cosine](Self::cosine_direction) then, and no other random number is taken.
+    pub(super) fn even(&self, spread: Spread, guide: Option<&Directions>) -> Option<Vec3> {
+        let even = self.specular.max_element() <= 0.0 && spread == Spread::Cosine && guide.is_none();
+        even.then_some(self.diffuse)
+    }
+
+    /// A direction in proportion to the cosine, for `u` and `v` in [0, 1).
+    #[inline]
+    pub(super) fn cosine_direction(&self, u: f32, v: f32) -> Vec3 {
+        cosine_direction_in(self.frame, self.normal, u, v)
+    }
+
     fn larger_cosine(&self, other: Vec3) -> f32 {
         self.normal.dot(self.axis).max(self.normal.dot(other)).max(LEAST_COSINE)
     }
@@ -95,15 +108,13 @@ impl Reflection {
         v: f32,
         random: &mut Random,
     ) -> Option<(Vec3, Vec3)> {
+        if let Some(weight) = self.even(spread, guide) {
+            return Some((self.cosine_direction(u, v), weight));
+        }
         let (diffuse, specular) = (self.diffuse.max_element(), self.specular.max_element());
-        if specular <= 0.0 && spread == Spread::Cosine {
-            return Some(match guide {
-                None => (cosine_direction_in(self.frame, self.normal, u, v), self.diffuse),
-                Some(guide) => {
-                    let (direction, density) = guide.sample(u, v);
-                    (direction, self.diffuse / density)
-                }
-            });
+        if let (Some(guide), true) = (guide, specular <= 0.0 && spread == Spread::Cosine) {
+            let (direction, density) = guide.sample(u, v);
+            return Some((direction, self.diffuse / density));
         }
         let total = diffuse + specular;
         let direction = if specular > 0.0 && random.unit() * total >= diffuse {
@@ -111,7 +122,7 @@ impl Reflection {
         } else if spread == Spread::Uniform {
             uniform_direction(self.normal, u, v)
         } else {
-            guide.map_or_else(|| cosine_direction_in(self.frame, self.normal, u, v), |guide| guide.sample(u, v).0)
+            guide.map_or_else(|| self.cosine_direction(u, v), |guide| guide.sample(u, v).0)
         };
         let cosine = direction.dot(self.normal);
         if cosine <= 0.0 {

@@ -12,6 +12,7 @@ pub(super) fn cosine_direction(normal: Vec3, u: f32, v: f32) -> Vec3 {
 
 /// As [`cosine_direction`], for the frame about a normal that is known.
 #[must_use]
+#[inline]
 pub(super) fn cosine_direction_in((x, y): (Vec3, Vec3), normal: Vec3, u: f32, v: f32) -> Vec3 {
     let (sin, cos) = (u.sqrt(), (1.0 - u).sqrt());
     let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);

@@ -1,8 +1,9 @@
 //! Points on surfaces: where a ray hit, and how to leave again without hitting the same surface.
 
-use super::bvh::{Bvh, RayCaster};
+use super::bvh::{Bvh, Ray, RayCaster, RayHit};
 use crate::scene::{Material, MaterialKind, Scene};
 use glam::Vec3;
+use pm_formats::Query;
 use std::sync::Arc;
 
 /// A scene made ready for rays. Copies share what was built.
@@ -26,6 +27,8 @@ struct Facet {
     edges: [Vec3; 2],
     /// Unit normal.
     front: Vec3,
+    /// As queries carry it, on the front side and on the other.
+    packed: [u32; 2],
     material: u16,
     /// Is the normal at its points another than its own, and asked for?
     is_smooth: bool,
@@ -35,10 +38,12 @@ impl Facet {
     fn new(scene: &Scene, triangle: usize) -> Self {
         let [a, b, c] = scene.triangle(triangle);
         let bends = matches!(scene.material_of(triangle).kind, MaterialKind::Mirror | MaterialKind::Glass);
+        let front = scene.geometric_normal(triangle);
         Self {
             corner: a,
             edges: [b - a, c - a],
-            front: scene.geometric_normal(triangle),
+            front,
+            packed: [front, -front].map(|normal| Query::pack_vector(normal.into())),
             material: scene.material_ids[triangle],
             is_smooth: bends && scene.corner_normals(triangle).is_some(),
         }
@@ -75,6 +80,8 @@ pub struct SurfacePoint {
     pub material: u16,
     /// Triangle, an index into the scene's.
     pub triangle: u32,
+    /// `facing` as queries carry it.
+    pub(super) packed_facing: u32,
     /// How far a ray must start from the surface so that rounding does not put it on the wrong side.
     margin: f32,
 }
@@ -93,8 +100,20 @@ impl<'a> Surfaces<'a> {
 
     /// The first surface that a ray meets.
     #[must_use]
+    #[inline]
     pub fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
         let hit = self.built.bvh.closest(origin, direction, f32::INFINITY)?;
+        Some(self.point(hit, direction))
+    }
+
+    /// The first triangles that rays meet, into `hits`.
+    pub(super) fn hit_each(&self, rays: &[Ray], hits: &mut Vec<Option<RayHit>>) {
+        self.built.bvh.closest_each(rays, hits);
+    }
+
+    /// The point where a ray of this direction met a triangle.
+    #[inline]
+    pub(super) fn point(&self, hit: RayHit, direction: Vec3) -> SurfacePoint {
         let index = hit.triangle as usize;
         let facet = &self.built.facets[index];
         let (position, margin) = facet.point(hit.u, hit.v);
@@ -104,15 +123,17 @@ impl<'a> Surfaces<'a> {
             Some([na, nb, nc]) => (na * (1.0 - hit.u - hit.v) + nb * hit.u + nc * hit.v).normalize_or(front),
             None => front,
         };
-        Some(SurfacePoint {
+        let from_behind = direction.dot(front) > 0.0;
+        SurfacePoint {
             position,
             front,
-            facing: if direction.dot(front) > 0.0 { -front } else { front },
+            facing: if from_behind { -front } else { front },
             smooth,
+            packed_facing: facet.packed[usize::from(from_behind)],
             material: facet.material,
             triangle: hit.triangle,
             margin,
-        })
+        }
     }
 
     /// Is the way between two points blocked?
@@ -139,6 +160,7 @@ impl<'a> Surfaces<'a> {
 impl SurfacePoint {
     /// Where a ray that leaves in `direction` starts.
     #[must_use]
+    #[inline]
     pub fn start(&self, direction: Vec3) -> Vec3 {
         let side = if direction.dot(self.front) < 0.0 { -self.front } else { self.front };
         self.position + side * self.margin

@@ -17,8 +17,8 @@ pub struct RayHit {
 
 /// A ray, and how far it goes.
 #[derive(Clone, Copy)]
-pub(super) struct Ray {
-    pub(super) origin: Vec3,
-    pub(super) direction: Vec3,
-    pub(super) far: f32,
+pub(in crate::transport) struct Ray {
+    pub(in crate::transport) origin: Vec3,
+    pub(in crate::transport) direction: Vec3,
+    pub(in crate::transport) far: f32,
 }

@@ -4,7 +4,6 @@ use super::lanes::{LANES, Lanes, Work};
 use super::ray::{Ray, RayHit};
 use super::sheared::Sheared;
 use super::wide::{Child, Leaf, Node, Wide};
-use glam::Vec3;
 
 /// The first triangle that a ray meets, and whether another is at the very same distance.
 pub(super) struct First {
@@ -15,6 +14,9 @@ pub(super) struct First {
 /// Looks for the first triangle at `0 < t <= far`.
 pub(super) struct Closest<'a>(pub(super) &'a Wide, pub(super) Ray);
 
+/// Looks for the first triangle of each ray, and tells of them in order.
+pub(super) struct ClosestEach<'a, T: FnMut(Option<First>)>(pub(super) &'a Wide, pub(super) &'a [Ray], pub(super) T);
+
 /// Looks for any triangle at `0 < t < far`.
 pub(super) struct Blocked<'a>(pub(super) &'a Wide, pub(super) Ray);
 
@@ -24,23 +26,36 @@ impl Work for Closest<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Found {
         let Self(wide, ray) = self;
-        // Of the first so far: leaf, lane, t, and weights of the second and third corner.
-        let mut first: Option<(usize, usize, [f32; 3])> = None;
+        // Of the first so far: leaf, lane, t, and weights of the second and third corner with what they are to be divided by.
+        let mut first: Option<(usize, usize, [f32; 4])> = None;
         let mut tied = false;
-        visit::<L>(wide, ray, |leaf, hits, mut nearest| {
-            for lane in set_bits(hits.lanes) {
+        visit::<L>(wide, ray, |leaf, lanes, hits, mut nearest| {
+            for lane in set_bits(lanes) {
                 let t = hits.t[lane];
                 if t < nearest || first.is_none() && t == nearest {
                     (nearest, tied) = (t, false);
-                    first = Some((leaf, lane, [t, hits.v[lane], hits.w[lane]]));
+                    first = Some((leaf, lane, [t, hits.v[lane], hits.w[lane], hits.determinant[lane]]));
                 } else if t == nearest {
                     tied = true;
                 }
             }
             Some(nearest)
         });
-        let (leaf, lane, [t, u, v]) = first?;
-        Some(First { hit: RayHit { triangle: wide.leaves[leaf].triangles[lane], t, u, v }, tied })
+        let (leaf, lane, [t, v, w, determinant]) = first?;
+        let triangle = wide.leaves[leaf].triangles[lane];
+        Some(First { hit: RayHit { triangle, t, u: v / determinant, v: w / determinant }, tied })
+    }
+}
+
+impl<T: FnMut(Option<First>)> Work for ClosestEach<'_, T> {
+    type Found = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self(wide, rays, mut tell) = self;
+        for ray in rays {
+            tell(Closest(wide, *ray).run::<L>());
+        }
     }
 }
 
@@ -51,32 +66,34 @@ impl Work for Blocked<'_> {
     fn run<L: Lanes>(self) -> Self::Found {
         let Self(wide, ray) = self;
         let mut blocked = false;
-        visit::<L>(wide, ray, |_, hits, nearest| {
-            blocked = set_bits(hits.lanes).any(|lane| hits.t[lane] < ray.far);
+        visit::<L>(wide, ray, |_, lanes, hits, nearest| {
+            blocked = set_bits(lanes).any(|lane| hits.t[lane] < ray.far);
             (!blocked).then_some(nearest)
         });
         blocked
     }
 }
 
-/// Which of a leaf's triangles a ray meets, at which `t`, and the weights of their second and third corners.
+/// Of a leaf's triangles that a ray meets: at which `t`, and the weights of their second and third corners before they are
+/// divided by the determinant, which only that of the first is.
 struct Hits {
-    lanes: u32,
     t: [f32; LANES],
     v: [f32; LANES],
     w: [f32; LANES],
+    determinant: [f32; LANES],
 }
 
 /// Calls `meet` for leaves on the way of a ray, nearer boxes first, with a leaf's number, the triangles met there and how far
 /// to look; it says how far to look from then on, or that this is the end.
 #[inline(always)]
-fn visit<L: Lanes>(wide: &Wide, ray: Ray, mut meet: impl FnMut(usize, Hits, f32) -> Option<f32>) {
+fn visit<L: Lanes>(wide: &Wide, ray: Ray, mut meet: impl FnMut(usize, u32, &Hits, f32) -> Option<f32>) {
     if wide.nodes.is_empty() {
         return;
     }
     let slabs = Slabs::new(&ray);
     let sheared = Sheared::new(ray.origin, ray.direction);
     let mut waiting = Waiting::new();
+    let mut hits = Hits { t: [0.0; LANES], v: [0.0; LANES], w: [0.0; LANES], determinant: [0.0; LANES] };
     let (mut child, mut nearest) = (Child::ROOT, ray.far);
     loop {
         match child.place() {
@@ -89,9 +106,9 @@ fn visit<L: Lanes>(wide: &Wide, ray: Ray, mut meet: impl FnMut(usize, Hits, f32)
                 }
             }
             Err(leaf) => {
-                let hits = triangles::<L>(&wide.leaves[leaf], &sheared, nearest);
-                if hits.lanes != 0 {
-                    let Some(until) = meet(leaf, hits, nearest) else { return };
+                let lanes = triangles::<L>(&wide.leaves[leaf], &sheared, nearest, &mut hits);
+                if lanes != 0 {
+                    let Some(until) = meet(leaf, lanes, &hits, nearest) else { return };
                     nearest = until;
                 }
             }
@@ -133,14 +150,15 @@ impl Slabs {
     /// Where the ray passes these planes of the boxes.
     #[inline(always)]
     fn pass<L: Lanes>(&self, node: &Node, axis: usize, planes: usize) -> L {
-        let planes = L::load(&node.planes[planes & 1][axis]);
+        let planes = L::load(&node.planes[axis][planes & 1]);
         planes.minus(L::splat(self.origin[axis])).times(L::splat(self.inverse[axis]))
     }
 }
 
-/// [`Sheared::hit`] of a leaf's triangles side by side, by the same operations in the same order.
+/// [`Sheared::hit`] of a leaf's triangles side by side, by the same operations in the same order. Returns a bit for each
+/// that is met, and says of those where.
 #[inline(always)]
-fn triangles<L: Lanes>(leaf: &Leaf, ray: &Sheared, far: f32) -> Hits {
+fn triangles<L: Lanes>(leaf: &Leaf, ray: &Sheared, far: f32, hits: &mut Hits) -> u32 {
     let [a, b, c] = [Corner::<L>::new(leaf, 0, ray), Corner::new(leaf, 1, ray), Corner::new(leaf, 2, ray)];
     let (u, v, w) = (c.cross(b), a.cross(c), b.cross(a));
     let zero = L::splat(0.0);
@@ -150,21 +168,20 @@ fn triangles<L: Lanes>(leaf: &Leaf, ray: &Sheared, far: f32) -> Hits {
     // Where one is 0 as far as single precision can tell; of squares, for they have no sign.
     let on_edge = u.times(u).min(v.times(v)).min(w.times(w)).at_most(zero);
     if inside | on_edge == 0 {
-        return Hits { lanes: 0, t: [0.0; LANES], v: [0.0; LANES], w: [0.0; LANES] };
+        return 0;
     }
     let determinant = u.plus(v).plus(w);
-    let t = L::splat(ray.shear.z).times(u.times(a.z).plus(v.times(b.z)).plus(w.times(c.z))).over(determinant);
-    let lanes = inside & t.at_most(L::splat(far)) & !t.at_most(zero);
-    let mut hits = Hits { lanes, t: t.store(), v: v.over(determinant).store(), w: w.over(determinant).store() };
+    let t = L::splat(ray.shear[2]).times(u.times(a.z).plus(v.times(b.z)).plus(w.times(c.z))).over(determinant);
+    let mut lanes = inside & t.at_most(L::splat(far)) & !t.at_most(zero);
+    *hits = Hits { t: t.store(), v: v.store(), w: w.store(), determinant: determinant.store() };
     for lane in set_bits(on_edge) {
-        let corners = leaf.corners.map(|axes| Vec3::from(axes.map(|axis| axis[lane])));
-        let hit = ray.hit(&corners, far);
-        hits.lanes = hits.lanes & !(1 << lane) | u32::from(hit.is_some()) << lane;
+        let hit = ray.hit(&leaf.triangle(lane), far);
+        lanes = lanes & !(1 << lane) | u32::from(hit.is_some()) << lane;
         if let Some((t, v, w)) = hit {
-            (hits.t[lane], hits.v[lane], hits.w[lane]) = (t, v, w);
+            (hits.t[lane], hits.v[lane], hits.w[lane], hits.determinant[lane]) = (t, v, w, 1.0);
         }
     }
-    hits
+    lanes
 }
 
 /// A corner of each of a leaf's triangles as the ray sees it. No closures: what is called in one is not made of the
@@ -181,8 +198,8 @@ impl<L: Lanes> Corner<L> {
     fn new(leaf: &Leaf, corner: usize, ray: &Sheared) -> Self {
         let z = Self::along(leaf, corner, ray, 2);
         Self {
-            x: Self::along(leaf, corner, ray, 0).minus(L::splat(ray.shear.x).times(z)),
-            y: Self::along(leaf, corner, ray, 1).minus(L::splat(ray.shear.y).times(z)),
+            x: Self::along(leaf, corner, ray, 0).minus(L::splat(ray.shear[0]).times(z)),
+            y: Self::along(leaf, corner, ray, 1).minus(L::splat(ray.shear[1]).times(z)),
             z,
         }
     }
@@ -190,8 +207,7 @@ impl<L: Lanes> Corner<L> {
     /// From the ray's origin, along what it calls its first, second or third axis.
     #[inline(always)]
     fn along(leaf: &Leaf, corner: usize, ray: &Sheared, axis: usize) -> L {
-        let axis = ray.axes[axis].min(2);
-        L::load(&leaf.corners[corner][axis]).minus(L::splat(ray.origin[axis]))
+        L::load(leaf.row(corner, ray.axes[axis])).minus(L::splat(ray.origin[axis]))
     }
 
     #[inline(always)]

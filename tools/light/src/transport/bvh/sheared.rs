@@ -5,38 +5,39 @@ use glam::Vec3;
 /// A ray turned and sheared so that it runs along the z axis: edges shared by triangles are then judged by the very same
 /// products. Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2(1), 2013.
 pub(super) struct Sheared {
-    pub(super) origin: Vec3,
+    /// Along the axes in the ray's order.
+    pub(super) origin: [f32; 3],
     /// Which axes are called x, y and z.
     pub(super) axes: [usize; 3],
     /// What is taken from x and y for each unit of z, and the scale of z.
-    pub(super) shear: Vec3,
+    pub(super) shear: [f32; 3],
 }
+
+/// By the axis called z: those called x and y, which keep the handedness, where the ray goes up z and where it goes down.
+const OTHERS: [[[usize; 2]; 2]; 3] = [[[1, 2], [2, 1]], [[2, 0], [0, 2]], [[0, 1], [1, 0]]];
 
 impl Sheared {
     #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3) -> Self {
-        // z is where the ray goes most; x and y keep the handedness.
+        // z is where the ray goes most.
         let size = direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        if direction[z] < 0.0 {
-            std::mem::swap(&mut x, &mut y);
-        }
-        let shear = Vec3::new(direction[x] / direction[z], direction[y] / direction[z], 1.0 / direction[z]);
-        Self { origin, axes: [x, y, z], shear }
+        let y_or_z = 1 + usize::from(size.y < size.z);
+        let z = if (size.x >= size.y) & (size.x >= size.z) { 0 } else { y_or_z };
+        let (origin, direction) = (origin.to_array(), direction.to_array());
+        let [x, y] = OTHERS[z][usize::from(direction[z] < 0.0)];
+        let axes = [x, y, z];
+        let shear = [direction[x] / direction[z], direction[y] / direction[z], 1.0 / direction[z]];
+        Self { origin: axes.map(|axis| origin[axis]), axes, shear }
     }
 
     /// Distance and barycentric weights of the second and third corner, for a hit at `0 < t <= far`.
     pub(super) fn hit(&self, corners: &[Vec3; 3], far: f32) -> Option<(f32, f32, f32)> {
-        let [x, y, z] = self.axes;
-        let [a, b, c] = corners.map(|corner| corner - self.origin);
-        let flat = |p: Vec3| (p[x] - self.shear.x * p[z], p[y] - self.shear.y * p[z]);
+        let [a, b, c] = corners.map(|corner| {
+            let corner = corner.to_array();
+            [0, 1, 2].map(|axis| corner[self.axes[axis]] - self.origin[axis])
+        });
+        let [shear_x, shear_y, scale] = self.shear;
+        let flat = |[x, y, z]: [f32; 3]| (x - shear_x * z, y - shear_y * z);
         let ((ax, ay), (bx, by), (cx, cy)) = (flat(a), flat(b), flat(c));
         let mut u = cx * by - cy * bx;
         let mut v = ax * cy - ay * cx;
@@ -55,7 +56,7 @@ impl Sheared {
         if determinant == 0.0 {
             return None;
         }
-        let scaled = self.shear.z * (u * a[z] + v * b[z] + w * c[z]);
+        let scaled = scale * (u * a[2] + v * b[2] + w * c[2]);
         let t = scaled / determinant;
         (t > 0.0 && t <= far).then(|| (t, v / determinant, w / determinant))
     }

@@ -7,8 +7,8 @@ use obvhs::bvh2::Bvh2;
 /// Eight boxes and what is in each.
 #[repr(C, align(32))]
 pub(super) struct Node {
-    /// The smallest and the largest coordinates, of each axis, of each box. Where there is no box, no ray is between.
-    pub(super) planes: [[[f32; LANES]; 3]; 2],
+    /// Of each axis, the smallest and the largest coordinates of each box. Where there is no box, no ray is between.
+    pub(super) planes: [[[f32; LANES]; 2]; 3],
     pub(super) children: [Child; LANES],
 }
 
@@ -32,10 +32,25 @@ impl Child {
 /// At most eight triangles side by side.
 #[repr(C, align(32))]
 pub(super) struct Leaf {
-    /// Of each corner, of each axis, of each triangle; not numbers where there is none, which no ray meets.
-    pub(super) corners: [[[f32; LANES]; 3]; 3],
+    /// Of each corner, of each axis, of each triangle; not numbers where there is none, which no ray meets. The last row is of
+    /// none: there for [`row`](Self::row).
+    corners: [[f32; LANES]; 10],
     /// Their indices in the scene.
     pub(super) triangles: [u32; LANES],
+}
+
+impl Leaf {
+    /// Of a corner, along an axis, of each triangle.
+    #[inline(always)]
+    pub(super) const fn row(&self, corner: usize, axis: usize) -> &[f32; LANES] {
+        // A row there is, whatever the axis: nothing to check.
+        &self.corners[corner * 3 + (axis & 3)]
+    }
+
+    /// The corners of one.
+    pub(super) fn triangle(&self, lane: usize) -> [Vec3; 3] {
+        [0, 1, 2].map(|corner| Vec3::from([0, 1, 2].map(|axis| self.row(corner, axis)[lane])))
+    }
 }
 
 /// The whole of it.
@@ -59,7 +74,7 @@ impl Wide {
     fn add_node(&mut self, binary: &Binary<'_>, at: usize) -> Child {
         let place = self.nodes.len();
         self.nodes.push(Node {
-            planes: [[[f32::INFINITY; LANES]; 3], [[f32::NEG_INFINITY; LANES]; 3]],
+            planes: [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3],
             children: [Child::ROOT; LANES],
         });
         for (lane, below) in binary.eight_below(at).into_iter().enumerate() {
@@ -68,8 +83,8 @@ impl Wide {
                 if binary.fits_a_leaf(below) { self.add_leaf(binary, below) } else { self.add_node(binary, below) };
             let node = &mut self.nodes[place];
             for axis in 0..3 {
-                node.planes[0][axis][lane] = aabb.min[axis];
-                node.planes[1][axis][lane] = aabb.max[axis];
+                node.planes[axis][0][lane] = aabb.min[axis];
+                node.planes[axis][1][lane] = aabb.max[axis];
             }
             node.children[lane] = child;
         }
@@ -77,13 +92,12 @@ impl Wide {
     }
 
     fn add_leaf(&mut self, binary: &Binary<'_>, at: usize) -> Child {
-        let mut leaf = Leaf { corners: [[[f32::NAN; LANES]; 3]; 3], triangles: [u32::MAX; LANES] };
+        let mut leaf = Leaf { corners: [[f32::NAN; LANES]; 10], triangles: [u32::MAX; LANES] };
         for (lane, place) in binary.places_below(at).into_iter().enumerate() {
             let (corners, triangle) = binary.triangles[place];
             leaf.triangles[lane] = triangle;
-            for (to, corner) in leaf.corners.iter_mut().zip(corners) {
-                (0..3).for_each(|axis| to[axis][lane] = corner[axis]);
-            }
+            let numbers = corners.into_iter().flat_map(|corner| corner.to_array());
+            leaf.corners.iter_mut().zip(numbers).for_each(|(row, number)| row[lane] = number);
         }
         self.leaves.push(leaf);
         Child(LEAF | u32::try_from(self.leaves.len() - 1).expect("no more leaves than triangles"))
