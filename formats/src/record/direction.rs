@@ -4,6 +4,7 @@
 ///
 /// Cigolle, Donow, Evangelakos, Mara, McGuire, Meyer: *A Survey of Efficient Representations for Independent Unit
 /// Vectors*, JCGT 3(2), 2014, section 3.2.
+#[inline]
 fn to_octahedron(v: [f32; 3]) -> [f32; 2] {
     let sum = v[0].abs() + v[1].abs() + v[2].abs();
     let (x, y) = (v[0] / sum, v[1] / sum);
@@ -20,6 +21,7 @@ fn from_octahedron([x, y]: [f32; 2]) -> [f32; 3] {
 
 /// A number in [-1, 1] in `2 * half + 1` steps, of which the middle one is exactly 0: vectors along an axis are exact.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0 ..= 2 * half")]
+#[inline]
 fn quantise(x: f32, half: f32) -> u16 {
     let steps = (x * half + half).clamp(0.0, 2.0 * half);
     // Halves go up, as `round` has them, which is a call to the C library on most machines.

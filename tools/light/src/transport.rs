@@ -40,6 +40,7 @@ mod sampling;
 mod scatter;
 mod strata;
 mod surface;
+mod turn;
 
 pub use bvh::{Bvh, RayCaster, RayHit};
 pub use cache_records::{CacheOptions, CacheRecords};

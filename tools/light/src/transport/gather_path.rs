@@ -8,7 +8,7 @@ use super::ray_counts::RayCounts;
 use super::reflection::{Reflection, Spread};
 use super::roulette::patience;
 use super::scatter::{choose, specular, spread_shares};
-use super::surface::{SurfacePoint, Surfaces};
+use super::surface::{Met, SurfacePoint, Surfaces};
 use crate::scene::{Material, MaterialKind};
 use glam::Vec3;
 use pm_random::Random;
@@ -93,6 +93,13 @@ impl<'a> GatherPaths<'a> {
         }
         counts.gather_continued += 1;
         self.continued(&end, light, random)
+    }
+
+    /// Does a gather ray that meets this first end there, with all of its weight, and with nothing else to be done?
+    #[inline]
+    pub(super) fn ends_at(&self, from: &SurfacePoint, met: &Met) -> bool {
+        let nearest = self.options.min_gather_dist;
+        self.ends[usize::from(met.material)] && (nearest <= 0.0 || met.position.distance(from.position) >= nearest)
     }
 
     /// One bounce further: direct light at the end of a ray that was too short goes to `light`, and what comes there

@@ -24,6 +24,9 @@ use std::borrow::Cow;
 /// for what another finds. Room that is used again.
 #[derive(Default)]
 pub(super) struct Batch {
+    /// Where in the unit square rays are that all weigh the same, and where they go to.
+    numbers: Vec<(f32, f32)>,
+    directions: Vec<Vec3>,
     rays: Vec<Ray>,
     started: Vec<Started>,
     hits: Vec<Option<RayHit>>,
@@ -38,14 +41,25 @@ struct Started {
 
 impl Batch {
     fn clear(&mut self) {
+        self.numbers.clear();
         self.rays.clear();
         self.started.clear();
     }
 
     fn add(&mut self, from: &SurfacePoint, direction: Vec3, started: Started) {
-        self.rays.push(Ray { origin: from.start(direction), direction, far: f32::INFINITY });
+        self.rays.push(ray(from, direction));
         self.started.push(started);
     }
+
+    /// Adds the rays of `numbers`, of which all else is there.
+    fn add_even(&mut self, from: &SurfacePoint, reflection: &Reflection) {
+        reflection.cosine_directions(&self.numbers, &mut self.directions);
+        self.rays.extend(self.directions.iter().map(|&direction| ray(from, direction)));
+    }
+}
+
+fn ray(from: &SurfacePoint, direction: Vec3) -> Ray {
+    Ray { origin: from.start(direction), direction, far: f32::INFINITY }
 }
 
 /// Casts the rays of a picture.
@@ -114,12 +128,7 @@ impl<'a> GatherRays<'a> {
 
     /// Adds the points seen in a pixel, in order, and returns the number of eye rays that found them; what is emitted on the
     /// way goes to `light`.
-    pub(super) fn see(
-        &self,
-        [x, y]: [u32; 2],
-        points: &mut Vec<VisiblePoint>,
-        light: &mut impl FnMut(Vec3),
-    ) -> u64 {
+    pub(super) fn see(&self, [x, y]: [u32; 2], points: &mut Vec<VisiblePoint>, light: &mut impl FnMut(Vec3)) -> u64 {
         self.eye.see(&self.paths.surfaces, x, y, points, light)
     }
 
@@ -130,13 +139,7 @@ impl<'a> GatherRays<'a> {
     }
 
     /// Light that comes to a point seen straight from the lamps: all of it, or what its gather rays leave over.
-    pub(super) fn direct_light(
-        &self,
-        pixel: u32,
-        visible: &VisiblePoint,
-        gathered: bool,
-        light: &mut dyn FnMut(Vec3),
-    ) {
+    pub(super) fn direct_light(&self, pixel: u32, visible: &VisiblePoint, gathered: bool, light: &mut dyn FnMut(Vec3)) {
         let GatherOptions { seed, direct, .. } = self.options;
         if direct {
             let reflection = Reflection::new(self.material(visible), visible.point.facing, visible.view);
@@ -193,22 +196,26 @@ impl<'a> GatherRays<'a> {
             let mut random = of_path.with(sample.into());
             let (u, v) = self.strata.point(stratum, &mut random);
             // Cosine-distributed rays each carry reflectance / N of the radiance they meet.
-            let chosen = match even {
-                Some(weight) => Some((reflection.cosine_direction(u, v), weight)),
-                None => {
-                    let chosen = reflection.sample(spread, guide.as_ref(), u, v, &mut random);
-                    chosen.map(|(direction, weight)| (direction, visible.share * weight / gathers as f32))
-                }
-            };
-            if let Some((direction, weight)) = chosen {
+            if let Some(weight) = even {
+                batch.numbers.push((u, v));
+                batch.started.push(Started { sample, weight, random });
+            } else if let Some((direction, weight)) = reflection.sample(spread, guide.as_ref(), u, v, &mut random) {
+                let weight = visible.share * weight / gathers as f32;
                 batch.add(point, direction, Started { sample, weight, random });
             }
         }
+        batch.add_even(point, &reflection);
         counts.gather += strata.len() as u64;
         counts.gather_lost += (strata.len() - batch.rays.len()) as u64;
         self.paths.surfaces.hit_each(&batch.rays, &mut batch.hits);
         for ((ray, started), hit) in batch.rays.iter().zip(&batch.started).zip(&batch.hits) {
             let (sample, direction) = (started.sample, ray.direction);
+            if let Some(met) = hit.as_ref().map(|hit| self.paths.surfaces.met(hit, direction))
+                && self.paths.ends_at(point, &met)
+            {
+                query(met.query(-direction, pixel, sample, started.weight), false);
+                continue;
+            }
             let mut random =
                 PathRandom { path: started.random.clone(), light_at_short_end: || of_light.with(sample.into()) };
             let end = hit.and_then(|hit| {

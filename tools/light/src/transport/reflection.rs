@@ -1,7 +1,7 @@
 //! How a surface spreads light over many directions: Lambert, and Phong's lobe where it is glossy.
 
 use super::directions::Directions;
-use super::sampling::{cosine_direction_in, phong_direction, uniform_direction};
+use super::sampling::{cosine_direction_in, cosine_directions_in, phong_direction, uniform_direction};
 use super::scatter::spread_shares;
 use crate::scene::Material;
 use glam::Vec3;
@@ -84,6 +84,12 @@ impl Reflection {
     #[inline]
     pub(super) fn cosine_direction(&self, u: f32, v: f32) -> Vec3 {
         cosine_direction_in(self.frame, self.normal, u, v)
+    }
+
+    /// The same of many pairs of numbers, into `directions`.
+    pub(super) fn cosine_directions(&self, numbers: &[(f32, f32)], directions: &mut Vec<Vec3>) {
+        directions.clear();
+        cosine_directions_in(self.frame, self.normal, numbers, directions);
     }
 
     fn larger_cosine(&self, other: Vec3) -> f32 {

@@ -1,5 +1,6 @@
 //! Directions and strata.
 
+use super::turn::sin_cos_of_turn;
 use glam::Vec3;
 use pm_film::hemisphere::frame;
 
@@ -15,8 +16,47 @@ pub(super) fn cosine_direction(normal: Vec3, u: f32, v: f32) -> Vec3 {
 #[inline]
 pub(super) fn cosine_direction_in((x, y): (Vec3, Vec3), normal: Vec3, u: f32, v: f32) -> Vec3 {
     let (sin, cos) = (u.sqrt(), (1.0 - u).sqrt());
-    let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);
+    let (sin_phi, cos_phi) = sin_cos_of_turn(v);
     (x * (sin * cos_phi) + y * (sin * sin_phi) + normal * cos).normalize()
+}
+
+/// [`cosine_direction_in`] of each of some pairs of numbers, after those that are there already.
+pub(super) fn cosine_directions_in(
+    frame: (Vec3, Vec3),
+    normal: Vec3,
+    numbers: &[(f32, f32)],
+    directions: &mut Vec<Vec3>,
+) {
+    const LANES: usize = 8;
+    for numbers in numbers.chunks(LANES) {
+        // Side by side, so that no direction waits for the roots and quotients of another; what is too much is not taken.
+        let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
+        for (lane, &number) in numbers.iter().enumerate() {
+            (u[lane], v[lane]) = number;
+        }
+        let mut weights = [[0.0; LANES]; 3];
+        for lane in 0..LANES {
+            let (sin, cos) = (u[lane].sqrt(), (1.0 - u[lane]).sqrt());
+            let (sin_phi, cos_phi) = sin_cos_of_turn(v[lane]);
+            weights[0][lane] = sin * cos_phi;
+            weights[1][lane] = sin * sin_phi;
+            weights[2][lane] = cos;
+        }
+        let mut made = [[0.0; LANES]; 3];
+        for axis in 0..3 {
+            let (x, y, normal) = (frame.0[axis], frame.1[axis], normal[axis]);
+            for lane in 0..LANES {
+                made[axis][lane] = x * weights[0][lane] + y * weights[1][lane] + normal * weights[2][lane];
+            }
+        }
+        let [x, y, z] = &mut made;
+        for lane in 0..LANES {
+            // As `normalize` does.
+            let scale = 1.0 / (x[lane] * x[lane] + y[lane] * y[lane] + z[lane] * z[lane]).sqrt();
+            (x[lane], y[lane], z[lane]) = (x[lane] * scale, y[lane] * scale, z[lane] * scale);
+        }
+        directions.extend((0..numbers.len()).map(|lane| Vec3::new(x[lane], y[lane], z[lane])));
+    }
 }
 
 /// A direction about `normal`, spread evenly over the hemisphere, from two numbers in [0, 1).
@@ -36,7 +76,7 @@ pub(super) fn phong_direction(axis: Vec3, exponent: f32, u: f32, v: f32) -> Vec3
 /// The direction at an angle to `axis` whose cosine is `cos`, at the share `v` of a turn about it.
 fn around(axis: Vec3, cos: f32, v: f32) -> Vec3 {
     let sin = ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
-    let (sin_phi, cos_phi) = libm::sincosf(2.0 * std::f32::consts::PI * v);
+    let (sin_phi, cos_phi) = sin_cos_of_turn(v);
     let (x, y) = frame(axis);
     (x * (sin * cos_phi) + y * (sin * sin_phi) + axis * cos).normalize()
 }
@@ -86,6 +126,19 @@ mod tests {
             for (sum, expected) in sums.into_iter().zip([2.0 / 3.0, 0.0, 0.0, 0.25]) {
                 assert!((sum - expected).abs() < 0.006, "{sums:?}");
             }
+        }
+    }
+
+    #[test]
+    fn directions_side_by_side_are_those_one_by_one_to_the_bit() {
+        let mut random = Random::new(&[4]);
+        for n in [0, 1, 7, 8, 9, 100] {
+            let normal = Vec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+            let numbers: Vec<_> = (0..n).map(|_| (random.unit(), random.unit())).collect();
+            let mut directions = vec![Vec3::X];
+            cosine_directions_in(frame(normal), normal, &numbers, &mut directions);
+            let one_by_one = numbers.iter().map(|&(u, v)| cosine_direction(normal, u, v));
+            assert_eq!(directions, [Vec3::X].into_iter().chain(one_by_one).collect::<Vec<_>>());
         }
     }
 

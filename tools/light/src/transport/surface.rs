@@ -86,6 +86,14 @@ pub struct SurfacePoint {
     margin: f32,
 }
 
+/// What a query says of a point.
+pub(super) struct Met {
+    pub(super) position: Vec3,
+    /// Unit normal on the side that the ray came from, as queries carry it.
+    pub(super) packed_facing: u32,
+    pub(super) material: u16,
+}
+
 /// Share of the coordinates and of the triangle's size that separates a ray's start from the surface: some 16 rounding
 /// steps, in whatever unit the scene is.
 const MARGIN: f32 = 1.0 / (1 << 20) as f32;
@@ -109,6 +117,15 @@ impl<'a> Surfaces<'a> {
     /// The first triangles that rays meet, into `hits`.
     pub(super) fn hit_each(&self, rays: &[Ray], hits: &mut Vec<Option<RayHit>>) {
         self.built.bvh.closest_each(rays, hits);
+    }
+
+    /// What is asked there of most: a part of [`point`](Self::point).
+    #[inline]
+    pub(super) fn met(&self, hit: &RayHit, direction: Vec3) -> Met {
+        let facet = &self.built.facets[hit.triangle as usize];
+        let (position, _) = facet.point(hit.u, hit.v);
+        let from_behind = direction.dot(facet.front) > 0.0;
+        Met { position, packed_facing: facet.packed[usize::from(from_behind)], material: facet.material }
     }
 
     /// The point where a ray of this direction met a triangle.

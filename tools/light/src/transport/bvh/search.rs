@@ -25,26 +25,30 @@ impl Work for Closest<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Found {
-        let Self(wide, ray) = self;
-        // Of the first so far: leaf, lane, t, and weights of the second and third corner with what they are to be divided by.
-        let mut first: Option<(usize, usize, [f32; 4])> = None;
-        let mut tied = false;
-        visit::<L>(wide, ray, |leaf, lanes, hits, mut nearest| {
-            for lane in set_bits(lanes) {
-                let t = hits.t[lane];
-                if t < nearest || first.is_none() && t == nearest {
-                    (nearest, tied) = (t, false);
-                    first = Some((leaf, lane, [t, hits.v[lane], hits.w[lane], hits.determinant[lane]]));
-                } else if t == nearest {
-                    tied = true;
-                }
-            }
-            Some(nearest)
-        });
-        let (leaf, lane, [t, v, w, determinant]) = first?;
-        let triangle = wide.leaves[leaf].triangles[lane];
-        Some(First { hit: RayHit { triangle, t, u: v / determinant, v: w / determinant }, tied })
+        closest::<L>(self.0, &Prepared::new(&self.1))
     }
+}
+
+#[inline(always)]
+fn closest<L: Lanes>(wide: &Wide, ray: &Prepared) -> Option<First> {
+    // Of the first so far: leaf, lane, t, and weights of the second and third corner with what they are to be divided by.
+    let mut first: Option<(usize, usize, [f32; 4])> = None;
+    let mut tied = false;
+    visit::<L>(wide, ray, |leaf, lanes, hits, mut nearest| {
+        for lane in set_bits(lanes) {
+            let t = hits.t[lane];
+            if t < nearest || first.is_none() && t == nearest {
+                (nearest, tied) = (t, false);
+                first = Some((leaf, lane, [t, hits.v[lane], hits.w[lane], hits.determinant[lane]]));
+            } else if t == nearest {
+                tied = true;
+            }
+        }
+        Some(nearest)
+    });
+    let (leaf, lane, [t, v, w, determinant]) = first?;
+    let triangle = wide.leaves[leaf].triangles[lane];
+    Some(First { hit: RayHit { triangle, t, u: v / determinant, v: w / determinant }, tied })
 }
 
 impl<T: FnMut(Option<First>)> Work for ClosestEach<'_, T> {
@@ -53,8 +57,12 @@ impl<T: FnMut(Option<First>)> Work for ClosestEach<'_, T> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self(wide, rays, mut tell) = self;
-        for ray in rays {
-            tell(Closest(wide, *ray).run::<L>());
+        // Some are prepared at a time, none of which has to wait for where another ends.
+        for rays in rays.chunks(AT_A_TIME) {
+            let prepared: [_; AT_A_TIME] = std::array::from_fn(|at| Prepared::new(&rays[at.min(rays.len() - 1)]));
+            for ray in &prepared[..rays.len()] {
+                tell(closest::<L>(wide, ray));
+            }
         }
     }
 }
@@ -66,7 +74,7 @@ impl Work for Blocked<'_> {
     fn run<L: Lanes>(self) -> Self::Found {
         let Self(wide, ray) = self;
         let mut blocked = false;
-        visit::<L>(wide, ray, |_, lanes, hits, nearest| {
+        visit::<L>(wide, &Prepared::new(&ray), |_, lanes, hits, nearest| {
             blocked = set_bits(lanes).any(|lane| hits.t[lane] < ray.far);
             (!blocked).then_some(nearest)
         });
@@ -86,15 +94,14 @@ struct Hits {
 /// Calls `meet` for leaves on the way of a ray, nearer boxes first, with a leaf's number, the triangles met there and how far
 /// to look; it says how far to look from then on, or that this is the end.
 #[inline(always)]
-fn visit<L: Lanes>(wide: &Wide, ray: Ray, mut meet: impl FnMut(usize, u32, &Hits, f32) -> Option<f32>) {
+fn visit<L: Lanes>(wide: &Wide, ray: &Prepared, mut meet: impl FnMut(usize, u32, &Hits, f32) -> Option<f32>) {
     if wide.nodes.is_empty() {
         return;
     }
-    let slabs = Slabs::new(&ray);
-    let sheared = Sheared::new(ray.origin, ray.direction);
+    let Prepared { slabs, sheared, far } = ray;
     let mut waiting = Waiting::new();
     let mut hits = Hits { t: [0.0; LANES], v: [0.0; LANES], w: [0.0; LANES], determinant: [0.0; LANES] };
-    let (mut child, mut nearest) = (Child::ROOT, ray.far);
+    let (mut child, mut nearest) = (Child::ROOT, *far);
     loop {
         match child.place() {
             Ok(node) => {
@@ -106,15 +113,40 @@ fn visit<L: Lanes>(wide: &Wide, ray: Ray, mut meet: impl FnMut(usize, u32, &Hits
                 }
             }
             Err(leaf) => {
-                let lanes = triangles::<L>(&wide.leaves[leaf], &sheared, nearest, &mut hits);
+                let Some(triangles_of) = wide.leaves.get(leaf) else {
+                    // The end, which is no leaf's number.
+                    if waiting.more.is_empty() {
+                        return;
+                    }
+                    let Some(next) = waiting.next_of_more(nearest) else { return };
+                    child = next;
+                    continue;
+                };
+                let lanes = triangles::<L>(triangles_of, sheared, nearest, &mut hits);
                 if lanes != 0 {
                     let Some(until) = meet(leaf, lanes, &hits, nearest) else { return };
                     nearest = until;
                 }
             }
         }
-        let Some(next) = waiting.next(nearest) else { return };
-        child = next;
+        child = waiting.next(nearest);
+    }
+}
+
+/// A ray as boxes and triangles see it.
+struct Prepared {
+    slabs: Slabs,
+    sheared: Sheared,
+    far: f32,
+}
+
+/// Rays that are prepared before the first of them is cast.
+const AT_A_TIME: usize = 8;
+
+impl Prepared {
+    #[inline(always)]
+    fn new(ray: &Ray) -> Self {
+        Self { slabs: Slabs::new(ray), sheared: Sheared::new(ray.origin, ray.direction), far: ray.far }
     }
 }
 
@@ -226,64 +258,135 @@ fn set_bits(mut mask: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Boxes still to be looked into and where the ray enters them, the next one last.
+/// Boxes still to be looked into, the next one last.
 struct Waiting {
-    few: [(Child, f32); Self::FEW],
+    /// The first stands for the end of them.
+    few: [Entry; Self::FEW],
     len: usize,
     /// Those before the few: of most rays none.
-    more: Vec<(Child, f32)>,
+    more: Vec<Entry>,
+}
+
+/// Where a ray enters a box, and what is in it, as one number: the nearer box is the smaller one, for the bits of numbers that
+/// are not negative go up with them. Of two the smaller is told without a branch, which no machine could foresee.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u64);
+
+impl Entry {
+    const NONE: Self = Self(u64::MAX);
+
+    #[inline(always)]
+    fn new(t: f32, child: Child) -> Self {
+        Self(u64::from(t.to_bits()) << 32 | u64::from(child.bits()))
+    }
+
+    #[inline(always)]
+    const fn child(self) -> Child {
+        Child::from_bits(self.0 as u32)
+    }
 }
 
 impl Waiting {
     const FEW: usize = 32;
 
     #[inline(always)]
-    const fn new() -> Self {
-        Self { few: [(Child::ROOT, 0.0); Self::FEW], len: 0, more: vec![] }
+    fn new() -> Self {
+        Self { few: [Entry::new(0.0, Child::END); Self::FEW], len: 1, more: vec![] }
     }
 
-    /// Puts what is in these of a node's boxes, but for the nearest, which it returns.
+    /// Puts what is in these of a node's boxes, of which there is one, but for the nearest, which it returns.
     #[inline(always)]
     fn put_all_but_nearest(&mut self, node: &Node, t: &[f32; LANES], lanes: u32) -> Child {
         if self.len + LANES > Self::FEW {
-            self.more.extend_from_slice(&self.few[..self.len]);
-            self.len = 0;
+            self.more.extend_from_slice(&self.few[1..self.len]);
+            self.len = 1;
         }
+        let entry = |lanes: u32| {
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            Entry::new(t[lane], node.children[lane])
+        };
+        let but_one = |lanes: u32| lanes & lanes.wrapping_sub(1);
+        // Mostly there are one or two.
+        let (first, mut rest) = (entry(lanes), but_one(lanes));
+        let second = if rest == 0 { Entry::NONE } else { entry(rest) };
+        let mut nearest = first.min(second);
         let bottom = self.len;
-        let mut nearest: Option<(Child, f32)> = None;
-        for lane in set_bits(lanes) {
-            let mut one = (node.children[lane], t[lane]);
-            let Some(other) = &mut nearest else {
-                nearest = Some(one);
-                continue;
-            };
-            if one.1 < other.1 {
-                std::mem::swap(&mut one, other);
-            }
+        self.few[bottom % Self::FEW] = first.max(second);
+        self.len += usize::from(rest != 0);
+        rest = but_one(rest);
+        while rest != 0 {
+            let one = entry(rest);
+            rest = but_one(rest);
+            let further = nearest.max(one);
+            nearest = nearest.min(one);
             let mut at = self.len;
-            while at > bottom && self.few[at - 1].1 < one.1 {
-                self.few[at] = self.few[at - 1];
+            while at > bottom && self.few[(at - 1) % Self::FEW] < further {
+                self.few[at % Self::FEW] = self.few[(at - 1) % Self::FEW];
                 at -= 1;
             }
-            self.few[at] = one;
+            self.few[at % Self::FEW] = further;
             self.len += 1;
         }
-        nearest.map_or(Child::ROOT, |(child, _)| child)
+        nearest.child()
     }
 
-    /// The next box that is entered at most so far away.
+    /// The next box that is entered at most so far away, or the end of the few.
     #[inline(always)]
-    fn next(&mut self, nearest: f32) -> Option<Child> {
+    fn next(&mut self, nearest: f32) -> Child {
+        let until = Entry(u64::from(nearest.to_bits()) << 32 | u64::from(u32::MAX));
         loop {
-            let (child, t) = match self.len.checked_sub(1) {
-                Some(last) => {
-                    self.len = last;
-                    self.few[last % Self::FEW]
+            self.len -= 1;
+            let entry = self.few[self.len % Self::FEW];
+            if entry <= until {
+                return entry.child();
+            }
+        }
+    }
+
+    /// The next box before the few, once their end has come.
+    #[cold]
+    fn next_of_more(&mut self, nearest: f32) -> Option<Child> {
+        self.len = 1;
+        let until = Entry(u64::from(nearest.to_bits()) << 32 | u64::from(u32::MAX));
+        std::iter::from_fn(|| self.more.pop()).find(|&entry| entry <= until).map(Entry::child)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pm_random::Random;
+
+    #[test]
+    fn all_boxes_that_wait_come_again_the_nearest_of_each_node_first() {
+        let mut random = Random::new(&[6]);
+        for nodes in [1, 3, 4, 5, 40] {
+            for nearest in [f32::INFINITY, 0.5] {
+                let mut waiting = Waiting::new();
+                let mut expected = vec![];
+                for node in 0..nodes {
+                    let children = std::array::from_fn(|lane| Child::from_bits(node * 8 + lane as u32));
+                    let boxes = Node { planes: [[[0.0; LANES]; 2]; 3], children };
+                    let t: [f32; LANES] = std::array::from_fn(|_| random.unit());
+                    let lanes = 1 + random.next_u64() as u32 % 255;
+                    let mut entered: Vec<_> = set_bits(lanes).map(|lane| (t[lane], children[lane].bits())).collect();
+                    entered.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    assert_eq!(waiting.put_all_but_nearest(&boxes, &t, lanes).bits(), entered[0].1);
+                    // The last node's come first.
+                    expected.splice(0..0, entered.into_iter().skip(1));
                 }
-                None => self.more.pop()?,
-            };
-            if t <= nearest {
-                return Some(child);
+                let mut found = vec![];
+                loop {
+                    let child = waiting.next(nearest);
+                    if child.bits() != Child::END.bits() {
+                        found.push(child.bits());
+                        continue;
+                    }
+                    let Some(next) = waiting.next_of_more(nearest) else { break };
+                    found.push(next.bits());
+                }
+                let near = expected.iter().filter(|&&(t, _)| t <= nearest).map(|&(_, child)| child);
+                assert_eq!(found, near.collect::<Vec<_>>(), "{nodes} nodes, up to {nearest}");
             }
         }
     }

@@ -43,6 +43,23 @@ fn both_hierarchies_find_the_same_by_all_instructions() {
 }
 
 #[test]
+fn rays_cast_together_find_what_each_finds_alone() {
+    for scene in ["cornell.obj", "furnace.obj"] {
+        let (scene, _) = shipped(scene);
+        let mut bvh = Bvh::build(&scene);
+        for instructions in Instructions::ALL.into_iter().filter(|instructions| instructions.are_there()) {
+            bvh.instructions = instructions;
+            let rays: Vec<Ray> = rays(2000).collect();
+            let mut hits = vec![None; 3];
+            for rays in [&rays[..0], &rays[..1], &rays[5..13], &rays] {
+                bvh.closest_each(rays, &mut hits);
+                assert_eq!(hits, rays.iter().map(|&ray| bvh.closest_by_binary(ray)).collect::<Vec<_>>());
+            }
+        }
+    }
+}
+
+#[test]
 fn of_triangles_at_the_same_distance_the_binary_hierarchy_says_which_is_first() {
     // Straight at the edges and diagonals of a cube.
     let (scene, _) = shipped("furnace.obj");

@@ -21,6 +21,19 @@ const LEAF: u32 = 1 << 31;
 impl Child {
     /// The node where every search begins.
     pub(super) const ROOT: Self = Self(0);
+    /// A leaf that no hierarchy has.
+    pub(super) const END: Self = Self(u32::MAX);
+
+    #[inline(always)]
+    pub(super) const fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Of what [`bits`](Self::bits) told.
+    #[inline(always)]
+    pub(super) const fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
 
     /// The number of a node, or else of a leaf.
     #[inline(always)]
