@@ -2,7 +2,8 @@
 //!
 //! The yardstick is obvhs with its own triangle test: gather rays from the points that a picture sees, as far as the first
 //! triangle. Beside it stand our hierarchy on the very same rays, and all that `pm-queries` does for a ray of that picture: random
-//! numbers, mirrors and glass, queries, their stream. Rounds are interleaved and medians compared, so that a busy machine slows
+//! numbers, mirrors and glass, queries, their stream, as it goes into a pipe and, compressed, into a file. That is told of a ray
+//! twice: of gather rays and eye rays alone, and of all that are cast, behind mirrors and glass as well. Rounds are interleaved and medians compared, so that a busy machine slows
 //! all alike. Both have to find the same. Left out of that are rays from where two walls meet: those begin in the very plane of the
 //! next wall, and by our test meet it at once, as rounding has it; not by the library's, nor in double precision.
 //!
@@ -20,7 +21,7 @@ use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
 use obvhs::ray::{Ray, RayHit};
 use obvhs::rt_triangle::RtTriangle;
 use obvhs::triangle::Triangle;
-use pm_formats::{BlockMeta, Bounds, Header, Query, RecordWriter};
+use pm_formats::{BlockMeta, Bounds, Compression, Header, Query, RecordWriter};
 use pm_light::scene::{Camera, CameraOverrides, Scene};
 use pm_light::transport::{
     AtSpecular, Bvh, GatherOptions, GatherRays, Method, PixelCaster, RayCaster as _, RayCounts, Spread, Strata,
@@ -57,31 +58,36 @@ fn main() {
     );
     let sum = |closest: &dyn Fn(&(Vec3, Vec3)) -> Option<f32>| {
         black_box(rays.iter().filter_map(closest).map(f64::from).sum::<f64>());
-        rays.len() as u64
+        [rays.len() as u64; 2]
     };
-    let contestants: [Contestant<'_>; 4] = [
+    let contestants: [Contestant<'_>; 5] = [
         ("obvhs, binary", Box::new(|| sum(&|ray| bvh2.closest(ray)))),
         ("obvhs, eight-wide", Box::new(|| sum(&|ray| cwbvh.closest(ray)))),
         ("ours", Box::new(|| sum(&own))),
-        ("a picture's, with its stream", Box::new(|| picture.write())),
+        ("a picture's, into a pipe", Box::new(|| picture.write(Compression::None))),
+        ("a picture's, into a file", Box::new(|| picture.write(Compression::Zstd))),
     ];
     let mut times = vec![vec![]; contestants.len()];
+    // How many rays there are for each of those that are counted at first.
+    let mut all = vec![1.0; contestants.len()];
     for _ in 0..rounds {
-        for ((_, contestant), times) in contestants.iter().zip(&mut times) {
+        for (((_, contestant), times), all) in contestants.iter().zip(&mut times).zip(&mut all) {
             let start = cpu_time();
-            let rays = contestant();
+            let [rays, cast] = contestant();
             times.push((cpu_time() - start).as_secs_f64() / rays as f64);
+            *all = cast as f64 / rays as f64;
         }
     }
     let ratios = |times: &[f64], best: &[f64]| median(times.iter().zip(best).map(|(time, best)| time / best).collect());
     let best = usize::from(median(times[1].clone()) < median(times[0].clone()));
-    for ((name, _), these) in contestants.iter().zip(&times) {
-        println!("  {name:30} {:6.0} ns  {:5.2}", median(these.clone()) * 1e9, ratios(these, &times[best]));
+    for (((name, _), these), all) in contestants.iter().zip(&times).zip(all) {
+        let (time, ratio) = (median(these.clone()) * 1e9, ratios(these, &times[best]));
+        println!("  {name:30} {time:6.0} ns  {ratio:5.2}   of all cast {:6.0} ns  {:5.2}", time / all, ratio / all);
     }
 }
 
-/// A name, and a job that says how many rays it cast.
-type Contestant<'a> = (&'a str, Box<dyn Fn() -> u64 + 'a>);
+/// A name, and a job that says how many rays it cast: without those behind mirrors and glass, and with them.
+type Contestant<'a> = (&'a str, Box<dyn Fn() -> [u64; 2] + 'a>);
 
 fn agree(a: Option<f32>, b: Option<f32>) -> bool {
     match (a, b) {
@@ -183,10 +189,12 @@ impl<'a> Picture<'a> {
         Self { rays: GatherRays::new(scene, camera, options), header, size }
     }
 
-    /// Writes the queries to nowhere; returns the number of rays, eye rays included.
-    fn write(&self) -> u64 {
+    /// Writes the queries to nowhere; returns the number of rays, eye rays included, and of those with what gather rays became
+    /// behind mirrors and glass.
+    fn write(&self, compression: Compression) -> [u64; 2] {
         let mut counts = RayCounts::default();
         let mut writer = RecordWriter::<Query, _>::new(std::io::sink(), &self.header).expect("a header");
+        writer = writer.with_compression(compression);
         let mut queries = vec![];
         for y in 0..self.size[1] {
             let mut caster = PixelCaster::new(&self.rays, None);
@@ -197,6 +205,7 @@ impl<'a> Picture<'a> {
             queries.clear();
         }
         writer.finish(vec![]).expect("what is written to nowhere");
-        counts.gather + counts.eye
+        let rays = counts.gather + counts.eye;
+        [rays, rays + counts.gather_further]
     }
 }

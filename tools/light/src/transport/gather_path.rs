@@ -87,12 +87,12 @@ impl<'a> GatherPaths<'a> {
         counts: &mut RayCounts,
     ) -> Option<End> {
         let lamps = Lamps { direct: techniques, behind_specular: self.options.caustics };
-        let end = self.follow(from, (first, direction), weight, lamps, light, &mut random.path)?;
+        let end = self.follow(from, (first, direction), weight, lamps, light, (&mut random.path, counts))?;
         if end.length >= self.options.min_gather_dist {
             return Some(end);
         }
         counts.gather_continued += 1;
-        self.continued(&end, light, random)
+        self.continued(&end, light, random, counts)
     }
 
     /// Does a gather ray that meets this first end there, with all of its weight, and with nothing else to be done?
@@ -112,6 +112,7 @@ impl<'a> GatherPaths<'a> {
         end: &End,
         light: &mut (impl FnMut(Vec3) + ?Sized),
         random: &mut PathRandom<impl Fn() -> Random>,
+        counts: &mut RayCounts,
     ) -> Option<End> {
         let PathRandom { path: random, light_at_short_end } = random;
         let reflection = Reflection::new(self.surfaces.material(&end.point), end.point.facing, end.view);
@@ -125,7 +126,8 @@ impl<'a> GatherPaths<'a> {
         let (direction, weight) = reflection.sample(Spread::Cosine, None, u, v, random)?;
         let lamps = Lamps { direct: techniques, behind_specular: true };
         let first = self.surfaces.hit(end.point.start(direction), direction)?;
-        let further = self.follow(&end.point, (first, direction), end.weight * weight, lamps, light, random)?;
+        let further =
+            self.follow(&end.point, (first, direction), end.weight * weight, lamps, light, (random, counts))?;
         Some(End { behind_specular: end.behind_specular || further.behind_specular, ..further })
     }
 
@@ -139,7 +141,7 @@ impl<'a> GatherPaths<'a> {
         weight: Vec3,
         lamps: Lamps,
         light: &mut (impl FnMut(Vec3) + ?Sized),
-        random: &mut Random,
+        (random, counts): (&mut Random, &mut RayCounts),
     ) -> Option<End> {
         if self.ends[usize::from(point.material)] {
             // As below, without a look at the number that decides.
@@ -147,7 +149,7 @@ impl<'a> GatherPaths<'a> {
             let length = point.position.distance(start.position);
             return Some(End { point, view: -direction, weight, behind_specular: false, length });
         }
-        self.follow_from(start, (point, direction), weight, lamps, light, random)
+        self.follow_from(start, (point, direction), weight, lamps, light, (random, counts))
     }
 
     /// The same where it may go on.
@@ -158,7 +160,7 @@ impl<'a> GatherPaths<'a> {
         mut weight: Vec3,
         lamps: Lamps,
         light: &mut (impl FnMut(Vec3) + ?Sized),
-        random: &mut Random,
+        (random, counts): (&mut Random, &mut RayCounts),
     ) -> Option<End> {
         let (mut from, mut length) = (*start, 0.0);
         let mut point = first;
@@ -204,6 +206,7 @@ impl<'a> GatherPaths<'a> {
             weight *= way.share * (chosen * patient * (total / specular_share));
             from = point;
             direction = way.direction;
+            counts.gather_further += 1;
             point = self.surfaces.hit(from.start(direction), direction)?;
         }
         None

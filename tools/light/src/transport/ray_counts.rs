@@ -11,6 +11,8 @@ pub struct RayCounts {
     pub seen: u64,
     /// Gather rays, not counting their reflections and refractions.
     pub gather: u64,
+    /// Reflections and refractions of gather rays.
+    pub gather_further: u64,
     /// Gather rays that left the scene or ended where there is nothing to ask for.
     pub gather_lost: u64,
     /// Gather rays that were too short and were continued.
@@ -25,6 +27,7 @@ impl std::ops::AddAssign for RayCounts {
         self.eye_again += other.eye_again;
         self.seen += other.seen;
         self.gather += other.gather;
+        self.gather_further += other.gather_further;
         self.gather_lost += other.gather_lost;
         self.gather_continued += other.gather_continued;
         self.guided += other.guided;

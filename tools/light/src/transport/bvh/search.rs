@@ -58,8 +58,12 @@ impl<T: FnMut(Option<First>)> Work for ClosestEach<'_, T> {
     fn run<L: Lanes>(self) {
         let Self(wide, rays, mut tell) = self;
         // Some are prepared at a time, none of which has to wait for where another ends.
+        let Some(first) = rays.first() else { return };
+        let mut prepared = [Prepared::new(first); AT_A_TIME];
         for rays in rays.chunks(AT_A_TIME) {
-            let prepared: [_; AT_A_TIME] = std::array::from_fn(|at| Prepared::new(&rays[at.min(rays.len() - 1)]));
+            for (prepared, ray) in prepared.iter_mut().zip(rays) {
+                *prepared = Prepared::new(ray);
+            }
             for ray in &prepared[..rays.len()] {
                 tell(closest::<L>(wide, ray));
             }
@@ -134,6 +138,7 @@ fn visit<L: Lanes>(wide: &Wide, ray: &Prepared, mut meet: impl FnMut(usize, u32,
 }
 
 /// A ray as boxes and triangles see it.
+#[derive(Clone, Copy)]
 struct Prepared {
     slabs: Slabs,
     sheared: Sheared,
@@ -151,6 +156,7 @@ impl Prepared {
 }
 
 /// A ray as boxes see it.
+#[derive(Clone, Copy)]
 struct Slabs {
     origin: [f32; 3],
     inverse: [f32; 3],

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 /// A ray turned and sheared so that it runs along the z axis: edges shared by triangles are then judged by the very same
 /// products. Woop, Benthin, Wald: *Watertight Ray/Triangle Intersection*, JCGT 2(1), 2013.
+#[derive(Clone, Copy)]
 pub(super) struct Sheared {
     /// Along the axes in the ray's order.
     pub(super) origin: [f32; 3],
