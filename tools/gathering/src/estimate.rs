@@ -23,6 +23,8 @@ pub struct RadianceEstimate<'a> {
     photons: &'a [Photon],
     placed: Placed<'a>,
     materials: &'a [Material],
+    /// The BRDF of each that is not glossy.
+    diffuse: Vec<Option<[f64; 3]>>,
     emitted_paths: f64,
     options: EstimateOptions,
     /// Double-precision sums of k powers are exact, hence the same in any order.
@@ -70,7 +72,9 @@ impl<'a> RadianceEstimate<'a> {
         #[expect(clippy::cast_precision_loss, reason = "path counts stay below 2^53")]
         let emitted_paths = emitted_paths.max(1) as f64;
         let placed = Placed::by_id(photons);
-        let mut new = Self { photons, placed, materials, emitted_paths, options, exact_sums, short_unit: None };
+        let diffuse = materials.iter().map(Self::diffuse_of).collect();
+        let mut new =
+            Self { photons, placed, materials, diffuse, emitted_paths, options, exact_sums, short_unit: None };
         new.short_unit = new.unit_of_short();
         new
     }
@@ -90,13 +94,13 @@ impl<'a> RadianceEstimate<'a> {
             Err(Nothing::Dark) => return Outcome::Radiance([0.0; 3]),
             Err(Nothing::NoArea) => return Outcome::NoArea,
         };
-        let material = &self.materials[usize::from(query.material)];
         // Next to a query near an edge is another, and what is asked of it is not the usual case.
-        let plain = if scratch.near_edge { None } else { self.plain(&rim, normal, material, found) };
+        let plain = if scratch.near_edge { None } else { self.plain(&rim, normal, query.material, found) };
         let (reflected, area) = match plain {
             Some(known) => known,
             None => {
                 let Lit { surface, area, slope, .. } = self.area(query.position, normal, &rim, found, scratch);
+                let material = &self.materials[usize::from(query.material)];
                 (self.reflected(&surface, slope, query, material, &mut scratch.own), area)
             }
         };

@@ -14,7 +14,7 @@ pub(crate) struct Around {
     pub(crate) places: Vec<u32>,
     /// Squared.
     pub(crate) distances: Vec<f32>,
-    /// Where they are.
+    /// Where they are. Of this and what follows nothing is meant beyond as many as there are places.
     at: [Vec<f32>; 3],
     /// All bits, if it lies on the query's surface; else none.
     own: Vec<u32>,
@@ -28,11 +28,10 @@ pub(crate) struct Around {
 impl Around {
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
-        let Self { places, distances, at, own, kept, strangers, strange } = self;
-        [places, own, kept, strangers].into_iter().for_each(Vec::clear);
-        distances.clear();
-        at.iter_mut().for_each(Vec::clear);
-        *strange = 0;
+        self.places.clear();
+        self.distances.clear();
+        self.kept.clear();
+        self.strange = 0;
     }
 
     /// Adds photons in these places, at these squared distances; `is_own` is asked for the code of a normal.
@@ -48,10 +47,12 @@ impl Around {
         let len = first + places.len();
         self.places.extend_from_slice(places);
         self.distances.extend_from_slice(distances);
-        self.at.iter_mut().for_each(|at| at.resize(len, 0.0));
-        self.own.resize(len, 0);
         self.kept.resize(len, u32::MAX);
-        self.strangers.resize(len, 0);
+        if self.own.len() < len {
+            self.at.iter_mut().for_each(|at| at.resize(len, 0.0));
+            self.own.resize(len, 0);
+            self.strangers.resize(len, 0);
+        }
         let [x, y, z] = self.at.each_mut().map(|at| &mut at[first..len]);
         let (own, strangers, mut strange) = (&mut self.own[first..len], &mut self.strangers[..len], self.strange);
         // In slices of one length, so that nothing is checked.
@@ -124,7 +125,6 @@ impl Around {
     pub(crate) fn own(&self, with_cut_off: bool, rim: Option<u32>, own: &mut Vec<(u32, f32)>) {
         let with = u32::from(with_cut_off).wrapping_neg();
         let rim = rim.unwrap_or(u32::MAX);
-        own.clear();
         own.resize(self.places.len(), (0, 0.0));
         let mut len = 0;
         let masks = self.own.iter().zip(&self.kept);

@@ -12,21 +12,15 @@ use std::f64::consts::PI;
 impl RadianceEstimate<'_> {
     /// Sum of BRDF x power and the area lit, if all photons lie on the query's surface and count alike.
     #[inline]
-    pub(super) fn plain(
-        &self,
-        rim: &Rim,
-        normal: [f32; 3],
-        material: &Material,
-        found: &Nearest,
-    ) -> Option<([f64; 3], f64)> {
+    pub(super) fn plain(&self, rim: &Rim, normal: [f32; 3], material: u16, found: &Nearest) -> Option<([f64; 3], f64)> {
         let unit = self.short_unit?;
-        if lobe::is_glossy(material) || !self.placed.knows(found) {
+        let diffuse = self.diffuse[usize::from(material)]?;
+        if !self.placed.knows(found) {
             return None;
         }
         let sums = self.sum_of_short(normal, found)?;
         let sums = sums.without(rim.place.and_then(|place| self.placed.short(place)));
-        let reflected =
-            [0, 1, 2].map(|channel| sums[channel] as f64 * unit * (f64::from(material.diffuse[channel]) / PI));
+        let reflected = [0, 1, 2].map(|channel| sums[channel] as f64 * unit * diffuse[channel]);
         Some((reflected, rim.radius_squared * Kernel::Constant.disc()))
     }
 
@@ -45,6 +39,11 @@ impl RadianceEstimate<'_> {
             found.places().all(|(_, place)| self.placed.short(place).is_some_and(is_same))
         };
         same.then_some(all)
+    }
+
+    /// The BRDF of a surface that is not glossy.
+    pub(super) fn diffuse_of(material: &Material) -> Option<[f64; 3]> {
+        (!lobe::is_glossy(material)).then(|| material.diffuse.map(|share| f64::from(share) / PI))
     }
 
     /// The unit in which powers add up as integers, if all photons of a surface count alike.
