@@ -18,6 +18,7 @@ use crate::digest::Tally;
 use crate::error::Result;
 use bytemuck::Pod;
 use columns::{columns, put_back, tally};
+use std::borrow::Cow;
 
 #[cfg(target_endian = "big")]
 compile_error!("records are little-endian and are read in place: this library needs a little-endian machine");
@@ -57,7 +58,7 @@ pub(crate) fn encode_records_as<T: Record>(
     let count = u32::try_from(records.len()).expect("a block's worth of records");
     let columns = columns(words(records), words_each::<T>());
     let meta = BlockMeta { records: count, ..meta };
-    let block = Block::encode_as(meta, bytemuck::cast_slice(&columns), LEVEL, compression)?;
+    let block = Block::encode_as(meta, columns, LEVEL, compression)?;
     Ok((block, tally(words(records), words_each::<T>())))
 }
 
@@ -68,8 +69,15 @@ pub fn decode_records<T: Record>(block: &Block) -> Option<(Vec<T>, Tally)> {
     if block.section != Section::Records || block.raw_len() != count * size_of::<T>() {
         return None;
     }
-    let mut columns = vec![0u32; count * words_each::<T>()];
-    block.decode_into(bytemuck::cast_slice_mut(&mut columns))?;
+    // What is stored as it is, is read where it lies, unless it lies askew.
+    let columns = match block.plain().and_then(|bytes| bytemuck::try_cast_slice(bytes).ok()) {
+        Some(columns) => Cow::Borrowed(columns),
+        None => {
+            let mut columns = vec![0u32; count * words_each::<T>()];
+            block.decode_into(bytemuck::cast_slice_mut(&mut columns))?;
+            Cow::Owned(columns)
+        }
+    };
     let mut records = vec![T::zeroed(); count];
     put_back(&columns, bytemuck::cast_slice_mut(&mut records), words_each::<T>());
     let tally = tally(words(&records), words_each::<T>());

@@ -4,6 +4,7 @@ use super::block_header::{BlockHeader, HEADER_BYTES, MAX_BLOCK, Packing};
 use super::packing::{compress, compress_long, decompress, prepare};
 use super::section::{BlockMeta, Section};
 use crate::error::{Error, Result};
+use std::borrow::Cow;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// What is done to the payloads of a stream's blocks.
@@ -41,10 +42,10 @@ impl Block {
     ///
     /// # Errors
     /// As [`encode`](Self::encode).
-    pub(crate) fn encode_as(meta: BlockMeta, payload: &[u8], level: i32, compression: Compression) -> Result<Self> {
+    pub(crate) fn encode_as(meta: BlockMeta, payload: Vec<u8>, level: i32, compression: Compression) -> Result<Self> {
         match compression {
-            Compression::Zstd => Self::encode(meta, payload, level),
-            Compression::None => Self::packed(Section::Records, meta, payload, |_| Ok(None)),
+            Compression::Zstd => Self::encode(meta, &payload, level),
+            Compression::None => Self::packed(Section::Records, meta, payload.into(), |_| Ok(None)),
         }
     }
 
@@ -53,7 +54,7 @@ impl Block {
     /// # Errors
     /// As [`encode`](Self::encode).
     pub(crate) fn encode_long(meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        Self::packed(Section::Records, meta, payload, |payload| compress_long(payload, level).map(Some))
+        Self::packed(Section::Records, meta, payload.into(), |payload| compress_long(payload, level).map(Some))
     }
 
     /// A block of a trace whose payload of so many bytes was packed by those who know its walks.
@@ -72,22 +73,22 @@ impl Block {
     }
 
     pub(crate) fn encode_section(section: Section, meta: BlockMeta, payload: &[u8], level: i32) -> Result<Self> {
-        Self::packed(section, meta, payload, |payload| compress(payload, level).map(Some))
+        Self::packed(section, meta, payload.into(), |payload| compress(payload, level).map(Some))
     }
 
     fn packed(
         section: Section,
         meta: BlockMeta,
-        payload: &[u8],
+        payload: Cow<'_, [u8]>,
         pack: impl FnOnce(&[u8]) -> std::io::Result<Option<Vec<u8>>>,
     ) -> Result<Self> {
         if payload.len() > MAX_BLOCK {
             return Err(Error::Invalid(format!("a block of {} bytes; the most is {MAX_BLOCK}", payload.len())));
         }
         let raw_len = u32::try_from(payload.len()).expect("MAX_BLOCK fits in 32 bits");
-        let (packing, bytes) = match pack(payload)?.filter(|packed| packed.len() < payload.len()) {
+        let (packing, bytes) = match pack(&payload)?.filter(|packed| packed.len() < payload.len()) {
             Some(packed) => (Packing::Zstd, packed),
-            None => (Packing::Plain, payload.to_vec()),
+            None => (Packing::Plain, payload.into_owned()),
         };
         Ok(Self { section, meta, packing, raw_len, bytes })
     }
@@ -100,13 +101,18 @@ impl Block {
         if self.packing == Packing::Plain { Ok(()) } else { Ok(prepare()?) }
     }
 
+    /// The payload, if it is stored as it is.
+    pub(crate) fn plain(&self) -> Option<&[u8]> {
+        (self.packing == Packing::Plain && self.bytes.len() == self.raw_len()).then_some(&self.bytes)
+    }
+
     /// The payload, into a buffer of exactly its size; `None` if it does not fit, or has walks that are packed.
     pub(crate) fn decode_into(&self, payload: &mut [u8]) -> Option<()> {
         if payload.len() != self.raw_len as usize {
             return None;
         }
         match self.packing {
-            Packing::Plain => (self.bytes.len() == payload.len()).then(|| payload.copy_from_slice(&self.bytes)),
+            Packing::Plain => self.plain().map(|bytes| payload.copy_from_slice(bytes)),
             Packing::Zstd => (decompress(&self.bytes, payload).ok()? == payload.len()).then_some(()),
             Packing::Walks => None,
         }

@@ -29,11 +29,18 @@ macro_rules! for_each_width {
     };
 }
 
-/// The words of records, column by column.
-pub(super) fn columns(words: &[u32], words_each: usize) -> Vec<u32> {
-    let mut columns = vec![0; words.len()];
-    for_each_width!(words_each, put_into(words, &mut columns, words_each));
-    columns
+/// The bytes of the words of records, column by column.
+pub(super) fn columns(words: &[u32], words_each: usize) -> Vec<u8> {
+    let mut bytes = vec![0; size_of_val(words)];
+    if let Ok(columns) = bytemuck::try_cast_slice_mut(&mut bytes) {
+        for_each_width!(words_each, put_into(words, columns, words_each));
+    } else {
+        // The system's memory lies askew.
+        let mut columns = vec![0; words.len()];
+        put_into(words, &mut columns, words_each);
+        bytes.copy_from_slice(bytemuck::cast_slice(&columns));
+    }
+    bytes
 }
 
 #[inline(always)]
@@ -89,6 +96,7 @@ mod tests {
                 let words: Vec<u32> = (0..(records * words_each) as u32).collect();
                 let columns = columns(&words, words_each);
                 let expected = (0..words_each).flat_map(|column| (0..records).map(move |at| at * words_each + column));
+                let columns: Vec<u32> = bytemuck::pod_collect_to_vec(&columns);
                 assert!(columns.iter().copied().eq(expected.map(|at| at as u32)), "{words_each} x {records}");
                 let mut back = vec![0; words.len()];
                 put_back(&columns, &mut back, words_each);

@@ -49,6 +49,12 @@ impl<T: Record, W: Write> RecordWriter<T, W> {
         }
         let mut rest = records;
         while !rest.is_empty() {
+            // A whole block is not copied first.
+            if let Some((block, later)) = rest.split_first_chunk::<BLOCK_RECORDS>().filter(|_| self.held.is_empty()) {
+                self.encode(block)?;
+                rest = later;
+                continue;
+            }
             let (now, later) = rest.split_at(rest.len().min(BLOCK_RECORDS - self.held.len()));
             self.held.extend_from_slice(now);
             rest = later;
@@ -71,12 +77,21 @@ impl<T: Record, W: Write> RecordWriter<T, W> {
     }
 
     fn cut(&mut self) -> Result<()> {
-        if !self.held.is_empty() {
-            let (block, tally) = encode_records_as(self.meta, &self.held, self.compression)?;
-            self.blocks.write(&block)?;
-            self.tally += tally;
-            self.held.clear();
+        if self.held.is_empty() {
+            return Ok(());
         }
+        let held = std::mem::take(&mut self.held);
+        self.encode(&held)?;
+        self.held = held;
+        self.held.clear();
+        Ok(())
+    }
+
+    /// Writes a block of the batch in hand.
+    fn encode(&mut self, records: &[T]) -> Result<()> {
+        let (block, tally) = encode_records_as(self.meta, records, self.compression)?;
+        self.blocks.write(&block)?;
+        self.tally += tally;
         Ok(())
     }
 

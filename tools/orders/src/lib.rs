@@ -5,6 +5,7 @@
 //! [`GenerativeOrder`], and a line in [`generative_orders`]. [`trial`] holds what every order must pass.
 
 mod arrivals;
+mod by_key;
 mod charge;
 mod costs;
 mod deferred;

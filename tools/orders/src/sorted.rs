@@ -1,5 +1,6 @@
 //! Orders that sort by a key: all of a batch, or all of the image, has to be held.
 
+use super::by_key::sorted_by_key;
 use super::runs::Runs;
 use super::{Charge, Costs, Outlet, Reorder, Store};
 use pm_formats::Query;
@@ -20,6 +21,9 @@ const BYTES_A_QUERY: u64 = (size_of::<Query>() + KEY_BYTES) as u64;
 /// Those of them that are needed once it is known which queries are sorted.
 const KEY_BYTES: usize = size_of::<u32>() + size_of::<u64>();
 
+/// Queries that are asked for at a time.
+const TOGETHER: usize = 64;
+
 /// The system has less memory than [`Limits`] allow.
 pub(super) fn no_memory() -> pm_formats::Error {
     let text = "not enough memory to sort all queries in; with less --memory they are sorted in temporary files";
@@ -34,6 +38,8 @@ pub struct Sorted<K> {
     limits: Limits,
     announced: bool,
     held: Vec<Query>,
+    /// The keys of those held.
+    keys: Vec<u32>,
     runs: Runs,
     /// Queries of the batch in hand, in memory and on disk.
     queries: u64,
@@ -45,20 +51,14 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Sorted<K> {
         let mut costs = Costs::new(store);
         costs.set_tables(tables);
         let runs = Runs::new(limits.folder.clone(), limits.memory);
-        Self { key, charge, costs, limits, announced: false, held: vec![], runs, queries: 0 }
+        Self { key, charge, costs, limits, announced: false, held: vec![], keys: vec![], runs, queries: 0 }
     }
 
     /// What is held in memory, sorted: keys, and indices among the held.
     fn sort_held(&mut self) -> pm_formats::Result<Vec<u64>> {
-        let mut room: Vec<[u8; KEY_BYTES]> = vec![];
-        std::hint::black_box(room.try_reserve_exact(self.held.len())).map_err(|_| no_memory())?;
-        drop(room);
-        let keys = (self.key)(&self.held);
-        self.charge.came(&self.held, &keys);
-        assert!(keys.len() <= 1 << 32, "more than 2^32 queries cannot be sorted at once");
-        // Only (key, index) is sorted; each record moves once.
-        let mut sorted: Vec<u64> = (0u64..).zip(keys).map(|(index, key)| u64::from(key) << 32 | index).collect();
-        sorted.sort_unstable();
+        self.charge.came(&self.held, &self.keys);
+        let sorted = sorted_by_key(&self.keys).ok_or_else(no_memory)?;
+        self.keys.clear();
         Ok(sorted)
     }
 
@@ -86,7 +86,10 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
             }
             let (now, later) = rest.split_at(rest.len().min(most - self.held.len()));
             self.held.try_reserve(now.len()).map_err(|_| no_memory())?;
+            self.keys.try_reserve(now.len()).map_err(|_| no_memory())?;
             self.held.extend_from_slice(now);
+            // While they are near: later each would have to come from memory again.
+            self.keys.extend((self.key)(now));
             rest = later;
         }
         Ok(())
@@ -97,9 +100,15 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
         if self.runs.is_empty() {
             let sorted = self.sort_held()?;
             self.charge.all_came(n, &self.costs);
-            for at in sorted {
-                self.charge.left((at >> 32) as u32);
-                out.leave(self.held[(at & 0xffff_ffff) as usize])?;
+            for some in sorted.chunks(TOGETHER) {
+                let query = |at: u64| &self.held[(at & 0xffff_ffff) as usize];
+                // Each lies anywhere in memory. Asked for one after the other with nothing else between, they come together.
+                let asked = some.iter().fold(0, |asked, &at| asked ^ query(at).pixel ^ query(at).weight[2].to_bits());
+                std::hint::black_box(asked);
+                for &at in some {
+                    self.charge.left((at >> 32) as u32);
+                    out.leave(*query(at))?;
+                }
             }
             self.held.clear();
         } else {
