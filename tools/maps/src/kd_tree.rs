@@ -147,3 +147,6 @@ impl PhotonMap for KdTree {
         search::nearest(self, point, found, eyes);
     }
 }
+
+#[cfg(test)]
+mod tests;

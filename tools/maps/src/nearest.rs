@@ -88,7 +88,42 @@ impl Nearest {
     /// Shows a photon at this squared distance.
     #[inline]
     pub fn show(&mut self, distance_squared: f32, id: u32) {
-        self.show_touching(distance_squared, id, |_| ());
+        // Also false for NaN.
+        if distance_squared <= self.bound {
+            let key = rank(distance_squared, id);
+            if self.keys.len() < self.k {
+                self.keys.push(key);
+                if self.keys.len() == self.k {
+                    self.make_heap(|_| ());
+                }
+            } else if key < self.keys[0] {
+                self.replace_farthest(key);
+            }
+        }
+    }
+
+    /// Puts a nearer key in the place of the farthest. The hole at the top goes down to a leaf of the heap, since it seldom stays
+    /// above, and the key up from there: no way down is guessed wrong, and the new bound is known before it ends (Floyd's
+    /// bottom-up sifting; Wegener, *Bottom-up heapsort*, Theoretical Computer Science 118, 1993).
+    #[inline]
+    fn replace_farthest(&mut self, key: u64) {
+        let keys = &mut self.keys[..];
+        let mut at = 0;
+        while 2 * at + 2 < keys.len() {
+            let [left, right] = [keys[2 * at + 1], keys[2 * at + 2]];
+            keys[at] = left.max(right);
+            at = 2 * at + 1 + usize::from(right > left);
+        }
+        if 2 * at + 1 < keys.len() {
+            keys[at] = keys[2 * at + 1];
+            at = 2 * at + 1;
+        }
+        while at > 0 && keys[(at - 1) / 2] < key {
+            keys[at] = keys[(at - 1) / 2];
+            at = (at - 1) / 2;
+        }
+        keys[at] = key;
+        self.tighten();
     }
 
     /// The same, where `touch` is told of each candidate that is read or written, by its slot.
@@ -108,6 +143,22 @@ impl Nearest {
                 self.tighten();
             }
         }
+    }
+
+    /// May so many more be shown before the bound changes?
+    #[inline(always)]
+    pub(crate) fn bound_stays_with(&self, more: usize) -> bool {
+        self.keys.len() + more < self.k
+    }
+
+    /// Keeps a photon if `kept`, which says whether it lies within the bound; the bound must [stay](Self::bound_stays_with).
+    #[inline(always)]
+    pub(crate) fn keep_if(&mut self, kept: bool, distance_squared: f32, id: u32) {
+        debug_assert!(self.bound_stays_with(1) && kept == (distance_squared <= self.bound));
+        let before = self.keys.len();
+        // No branch to be guessed.
+        self.keys.push(rank(distance_squared, id));
+        self.keys.truncate(before + usize::from(kept));
     }
 
     #[cold]

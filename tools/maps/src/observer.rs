@@ -15,6 +15,14 @@ pub trait AccessObserver {
         self.read(region, record);
     }
 
+    /// The same if `is_read`.
+    #[inline(always)]
+    fn read_after_if(&mut self, is_read: bool, region: u16, record: u32, waits: Waits) {
+        if is_read {
+            self.read_after(region, record, waits);
+        }
+    }
+
     /// The search begins anew, since it did not find enough.
     #[inline(always)]
     fn again(&mut self) {}

@@ -1,6 +1,7 @@
 //! What a search read.
 
 use super::{AccessObserver, AnyMap, Nearest};
+use pm_formats::trace::Waits;
 
 /// Remembers the reads of one search.
 #[derive(Default)]
@@ -71,6 +72,21 @@ impl AccessObserver for SearchReads {
         match self.runs.last_mut() {
             Some(run) if run.0 == region => run.1 = end,
             _ => self.runs.push((region, end)),
+        }
+    }
+
+    #[inline]
+    fn read_after_if(&mut self, is_read: bool, region: u16, record: u32, _: Waits) {
+        match self.runs.last_mut() {
+            // No branch to be guessed.
+            Some(run) if run.0 == region => {
+                let end = self.records.len() + usize::from(is_read);
+                self.records.push(record);
+                self.records.truncate(end);
+                run.1 = end;
+            }
+            _ if is_read => self.read(region, record),
+            _ => {}
         }
     }
 
