@@ -3,7 +3,6 @@
 use super::claims;
 use super::usage::usage;
 use anyhow::Context as _;
-use nix::fcntl::{FcntlArg, fcntl};
 use pm_formats::{Compression, Header, Record, RecordWriter};
 use std::fmt;
 use std::fs::{self, File, Permissions};
@@ -130,13 +129,19 @@ pub fn create_output(path: &Path) -> anyhow::Result<Output> {
 
 /// Room in a pipe for some blocks of records, so that those at its ends seldom wait for each other: as much as the system gives to
 /// everybody. Without it a pipe has room for a third of a block.
+#[cfg(target_os = "linux")]
 fn widen(file: &File) {
+    use nix::fcntl::{FcntlArg, fcntl};
     const CAPACITY: i32 = 1 << 20;
     if is_pipe(file) {
         // A system that gives no more has a pipe as well.
         let _ = fcntl(file, FcntlArg::F_SETPIPE_SZ(CAPACITY));
     }
 }
+
+/// Other systems have no such question.
+#[cfg(not(target_os = "linux"))]
+fn widen(_: &File) {}
 
 fn is_pipe(file: &File) -> bool {
     file.metadata().is_ok_and(|metadata| metadata.file_type().is_fifo())
