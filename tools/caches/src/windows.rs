@@ -137,6 +137,20 @@ impl Windows {
         }
     }
 
+    /// Caches whose state is not exact see these.
+    fn warm(&mut self, accesses: impl Iterator<Item = Access> + Clone) {
+        for warmth in &mut self.warmths {
+            for access in accesses.clone() {
+                if warmth.all_exact() {
+                    break;
+                }
+                warmth.see(&access, |cache| {
+                    self.caches[cache].unknown[usize::from(access.region)] += u64::from(self.measuring);
+                });
+            }
+        }
+    }
+
     /// Ends the simulation: what the windows tell of each cache, in the order they were given. `chosen` is how many windows the sample
     /// was to have, of which those without any query are not in the trace; `share` is the part of the stream that they
     /// measure.
@@ -180,11 +194,17 @@ impl TraceSink for Windows {
     }
 
     fn access(&mut self, access: Access) {
-        for warmth in self.warmths.iter_mut().filter(|warmth| !warmth.all_exact()) {
-            warmth.see(&access, |cache| {
-                self.caches[cache].unknown[usize::from(access.region)] += u64::from(self.measuring);
-            });
-        }
+        self.warm([access].into_iter());
         self.simulation.access(access);
+    }
+
+    fn accesses(&mut self, accesses: &[Access]) {
+        self.warm(accesses.iter().copied());
+        self.simulation.accesses(accesses);
+    }
+
+    fn records(&mut self, region: u16, size: u32, records: &[u32]) {
+        self.warm(records.iter().map(|&record| Access::read(region, u64::from(record) * u64::from(size), size)));
+        self.simulation.records(region, size, records);
     }
 }

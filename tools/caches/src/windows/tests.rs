@@ -91,6 +91,18 @@ type Window = (std::ops::Range<usize>, std::ops::Range<usize>);
 
 /// Simulates windows of `searches`, each search for two queries.
 fn simulate(searches: &[Vec<Access>], windows: &[Window], chosen: u64, share: f64) -> Vec<WindowedCounts> {
+    let one_by_one = |sink: &mut Windows, search: &[Access]| search.iter().for_each(|&access| sink.access(access));
+    simulate_told(searches, windows, chosen, share, one_by_one)
+}
+
+/// The same, where `tell` says how accesses are told.
+fn simulate_told(
+    searches: &[Vec<Access>],
+    windows: &[Window],
+    chosen: u64,
+    share: f64,
+    tell: impl Fn(&mut Windows, &[Access]),
+) -> Vec<WindowedCounts> {
     let mut sink =
         Windows::new(&regions(), &caches(), &Measures { working_sets: true, ..Measures::default() }).unwrap();
     for (batch, (warm_up, measured)) in (0..).zip(windows) {
@@ -100,7 +112,7 @@ fn simulate(searches: &[Vec<Access>], windows: &[Window], chosen: u64, share: f6
                 sink.block(batch, is_warm_up);
                 for search in block {
                     sink.search(&[1, 2]);
-                    search.iter().for_each(|&access| sink.access(access));
+                    tell(&mut sink, search);
                     sink.search_end();
                 }
             }
@@ -119,6 +131,27 @@ fn truth(searches: &[Vec<Access>], cache: &CacheConfig) -> Vec<u64> {
     }
     let mut lists = Lists::new(cache);
     searches.iter().map(|search| lists.search(search)).collect()
+}
+
+#[test]
+fn accesses_count_alike_told_one_by_one_and_many_at_once() {
+    let searches = searches(800, 4);
+    let plain: Vec<Vec<Access>> = searches
+        .iter()
+        .map(|search| search.iter().map(|access| Access { kind: AccessKind::Read, ..*access }).collect())
+        .collect();
+    let windows: Vec<Window> = (1..6).map(|i| (i * 100..i * 100 + 9, i * 100 + 9..i * 100 + 40)).collect();
+    let told = |counts: Vec<WindowedCounts>| format!("{counts:?}");
+    let together = |sink: &mut Windows, search: &[Access]| sink.accesses(search);
+    assert_eq!(told(simulate_told(&searches, &windows, 5, 0.1, together)), told(simulate(&searches, &windows, 5, 0.1)));
+    let by_records = |sink: &mut Windows, search: &[Access]| {
+        for run in search.chunk_by(|a, b| a.region == b.region) {
+            let records: Vec<u32> =
+                run.iter().map(|access| u32::try_from(access.offset / u64::from(access.len)).unwrap()).collect();
+            sink.records(run[0].region, run[0].len, &records);
+        }
+    };
+    assert_eq!(told(simulate_told(&plain, &windows, 5, 0.1, by_records)), told(simulate(&plain, &windows, 5, 0.1)));
 }
 
 #[test]
