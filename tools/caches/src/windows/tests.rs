@@ -151,7 +151,8 @@ fn accesses_count_alike_told_one_by_one_and_many_at_once() {
             sink.records(run[0].region, run[0].len, &records);
         }
     };
-    assert_eq!(told(simulate_told(&plain, &windows, 5, 0.1, by_records)), told(simulate(&plain, &windows, 5, 0.1)));
+    let counts = simulate_told(&plain, &windows, 5, 0.1, by_records);
+    assert!(told(counts) == told(simulate(&plain, &windows, 5, 0.1)), "as records of a region");
 }
 
 #[test]
