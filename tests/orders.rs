@@ -1,11 +1,11 @@
 //! Orders through the program: sorted on disk as in memory, told what they cost, sampled?
 
 use crate::streams::{check, records, sorted_records};
-use crate::support::{Folder, Outcome, same_bytes};
+use crate::support::{Folder, Outcome, peak_memory, same_bytes};
 use pm_formats::vocabulary::{meaning, measure};
 use pm_formats::{End, Query, RecordReader, Section, StreamKind};
 use std::fs;
-use std::io::{Read as _, Write as _};
+use std::io::Write as _;
 use std::process::Stdio;
 
 /// Queries that fill the least memory a few dozen times.
@@ -155,19 +155,7 @@ fn streaming_orders_need_no_more_memory_for_a_longer_stream() {
     let folder = Folder::new();
     folder.run("pm-queries --size 96x48 --gathers 32 -t 2 -o short.pmq").ok();
     folder.run("pm-queries --size 384x96 --gathers 32 -t 2 -o long.pmq").ok();
-    // Kilobytes at the peak, while the end of the output is not yet taken: more than a pipe holds, so the program lives.
-    let peak = |order: &str, input: &str| -> f64 {
-        let line = format!("pm-reorder {order} {input}");
-        let length = folder.run(&line).ok().stdout.len();
-        let mut child = folder.command(&line).spawn().unwrap();
-        let mut output = child.stdout.take().unwrap();
-        output.read_exact(&mut vec![0; length - (200 << 10)]).unwrap();
-        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
-        output.read_to_end(&mut vec![]).unwrap();
-        assert!(child.wait().unwrap().success());
-        let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        kilobytes.and_then(|line| line.split_whitespace().next()).expect("a peak").parse().unwrap()
-    };
+    let peak = |order: &str, input: &str| peak_memory(&folder, &format!("pm-reorder {order} {input}"));
     for order in ["hashed", "snowplow --storage 256K", "buffered --storage 256K"] {
         let (short, long) = (peak(order, "short.pmq"), peak(order, "long.pmq"));
         assert!(long < 1.2 * short + 500.0, "{order}: {short} KB, {long} KB for eight times the queries");

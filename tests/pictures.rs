@@ -1,6 +1,6 @@
 //! Do the pictures of `pm-gather` say where they come from, and does exposure brighten previews alone?
 
-use crate::support::{Folder, same_bytes};
+use crate::support::{Folder, peak_memory, same_bytes};
 use pm_pictures::{Description, Picture, PictureFormat};
 use std::fs::File;
 use std::io::BufReader;
@@ -107,4 +107,18 @@ fn pictures_of_other_seeds_say_what_noise_they_share() {
     assert!(said.stderr.contains(&format!("half of rel_mse, {:.3e}, is the noise", rel_mse / 2.0)), "{}", said.stderr);
     folder.run("pm-view a.exr c.exr").ok();
     assert!(folder.run("pm-view a.exr a.exr").stderr.contains("the same to the last bit"));
+}
+
+#[test]
+fn a_gather_takes_at_most_60_bytes_a_photon() {
+    // Catches: what is known of photons held twice while it is put in the map's order.
+    let folder = Folder::new();
+    folder.run("pm-queries -q --size 96x96 --gathers 16 -t 2 -o q.pmq").ok();
+    let [few, many] = [200_000, 1_000_000].map(|photons| {
+        folder.run(&format!("pm-photons -q -n {photons} -t 2 -o map.pmp")).ok();
+        peak_memory(&folder, "pm-gather -q -t 1 --map wide map.pmp q.pmq --image i.exr")
+    });
+    let bytes = (many - few) * 1024.0 / 800_000.0;
+    assert!(bytes <= 60.0, "{bytes} bytes a photon");
+    assert!(bytes > 20.0, "no less than the photons: {bytes}");
 }

@@ -215,3 +215,18 @@ pub(crate) fn same_bytes(what: &str, expected: &[u8], got: &[u8]) {
 pub(crate) fn same_text(what: &str, expected: &str, got: &str) {
     assert!(expected == got, "{what}\n--- expected\n{expected}\n--- got\n{got}\n---");
 }
+
+/// Kilobytes that a program has needed at its peak when most of its output has been taken. The rest, which has to be there, is more
+/// than a pipe (1 MiB) and a program's own buffers hold, so that it lives then.
+pub(crate) fn peak_memory(folder: &Folder, line: &str) -> f64 {
+    // Into a pipe both times: what goes to a file may be compressed.
+    let length = folder.command(line).output().unwrap().stdout.len();
+    let mut child = folder.command(line).spawn().unwrap();
+    let mut output = child.stdout.take().unwrap();
+    output.read_exact(&mut vec![0; length.checked_sub(2 << 20).expect("more output")]).unwrap();
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+    output.read_to_end(&mut vec![]).unwrap();
+    assert!(child.wait().unwrap().success());
+    let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    kilobytes.and_then(|line| line.split_whitespace().next()).expect("a peak").parse().unwrap()
+}

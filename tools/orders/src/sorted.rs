@@ -17,9 +17,7 @@ pub struct Limits {
 }
 
 /// Bytes of memory for each query that is sorted: the record, its key, and key and index together.
-const BYTES_A_QUERY: u64 = (size_of::<Query>() + KEY_BYTES) as u64;
-/// Those of them that are needed once it is known which queries are sorted.
-const KEY_BYTES: usize = size_of::<u32>() + size_of::<u64>();
+const BYTES_A_QUERY: u64 = (size_of::<Query>() + size_of::<u32>() + size_of::<u64>()) as u64;
 
 /// Queries that are asked for at a time.
 const TOGETHER: usize = 64;
@@ -113,8 +111,8 @@ impl<K: Fn(&[Query]) -> Vec<u32>> Reorder for Sorted<K> {
             self.held.clear();
         } else {
             self.spill_run()?;
-            // Its memory is needed for the buffers.
-            self.held = vec![];
+            // Their memory is needed for the buffers.
+            (self.held, self.keys) = (vec![], vec![]);
             self.charge.all_came(n, &self.costs);
             let charge = &mut self.charge;
             self.runs.drain(|key, query| {

@@ -48,7 +48,9 @@ impl<'a> Placed<'a> {
     pub(super) fn in_order(mut self, order: Option<&Arc<[u32]>>) -> Self {
         if let Some(order) = order {
             self.shorts = self.shorts.in_order(order);
-            self.spots = order.iter().map(|&id| self.spots[id as usize]).collect();
+            // Those by id are gone before, so that there are never both.
+            self.spots = vec![];
+            self.spots = order.iter().map(|&id| Spot::of(&self.photons[id as usize])).collect();
             self.order = Some(Arc::clone(order));
         }
         self

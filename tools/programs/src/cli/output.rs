@@ -143,7 +143,7 @@ fn widen(file: &File) {
 #[cfg(not(target_os = "linux"))]
 fn widen(_: &File) {}
 
-fn is_pipe(file: &File) -> bool {
+pub(super) fn is_pipe(file: &File) -> bool {
     file.metadata().is_ok_and(|metadata| metadata.file_type().is_fifo())
 }
 

@@ -1,10 +1,10 @@
 //! Progress on standard error, for a person who watches.
 
+use super::output::is_pipe;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fs::File;
 use std::io::{self, IsTerminal as _};
 use std::os::fd::AsFd as _;
-use std::os::unix::fs::FileTypeExt as _;
 use std::time::Duration;
 
 /// A progress bar that draws only where someone sees it: standard error is a terminal, and standard output is not a
@@ -63,5 +63,5 @@ fn target(quiet: bool) -> ProgressDrawTarget {
 
 fn stdout_is_pipe() -> bool {
     let file = io::stdout().as_fd().try_clone_to_owned().map(File::from);
-    file.and_then(|file| file.metadata()).is_ok_and(|metadata| metadata.file_type().is_fifo())
+    file.is_ok_and(|file| is_pipe(&file))
 }

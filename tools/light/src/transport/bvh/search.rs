@@ -178,6 +178,7 @@ impl Slabs {
     #[inline(always)]
     fn enter<L: Lanes>(&self, node: &Node, nearest: f32) -> ([f32; LANES], u32) {
         let (mut enter, mut leave) = (L::splat(0.0), L::splat(nearest));
+        // Of equals `max` takes the second: a plane that is passed at -0 leaves 0, as an [`Entry`] needs it.
         for axis in 0..3 {
             enter = self.pass::<L>(node, axis, self.first[axis]).max(enter);
             leave = self.pass::<L>(node, axis, self.first[axis] ^ 1).min(leave);
